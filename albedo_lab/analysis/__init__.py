@@ -1,0 +1,1 @@
+"""Questions asked of estimates, answered as tidy DataFrames."""

@@ -1,0 +1,103 @@
+"""The largest constant that a model may carry before it creates energy."""
+
+from __future__ import annotations
+
+import math
+
+import pandas as pd
+
+from albedo_lab.analysis.grid import (
+    Effort,
+    Progress,
+    conclude,
+    effort,
+    figures,
+    grid,
+    label,
+    largest_constant,
+    model_of,
+    orders,
+    parameter_columns,
+    track,
+)
+from albedo_lab.analysis.supremum import GRAZING, Supremum, supremum
+from albedo_lab.errors import BadInput
+from albedo_lab.estimate.methods import estimate
+from albedo_lab.estimate.record import Estimate, Question, Tolerance
+from albedo_lab.model import Model
+
+
+def normalise(
+    model: Model | str,
+    *,
+    tolerance: float | None = None,
+    method: str = "rqmc",
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **parameters: object,
+) -> pd.DataFrame:
+    """The maximum of `scale`: the reciprocal of the supremum of the albedo over all directions of incidence, mu -> 0 included.
+
+    Options and errors are those of `albedo`. Quadrature finds the place of the supremum and bounds what the place's error can
+    hide; the method asked for measures the albedo there; the interval holds both errors.
+
+    Returns
+    -------
+    DataFrame
+        One row per cell: model, parameters, constant, standard_error, ci95_low, ci95_high, samples, method, seed, non_finite,
+        peak_theta_deg (90 stands for the limit), paper_constant (NaN where the source prints none), behaviour ("bounded", or
+        "diverges": the albedo is unbounded at grazing angles, and no constant but 0 keeps the energy balance), order, and
+        peak_phi_deg for anisotropic models.
+
+    Examples
+    --------
+    >>> table = normalise("ward", m=0.1)
+    >>> float(table.constant[0]), table.behaviour[0]
+    (0.0, 'diverges')
+    """
+    model = model_of(model)
+    want = effort(tolerance, method, seed, threads)
+    if "scale" in parameters:
+        raise BadInput("scale", parameters["scale"], "is what normalise finds; leave it out")
+    cells = [(p, order) for p, _ in list(grid(model, parameters)) for order in orders(model)]
+    anisotropic = any(not model.isotropic(p) for p, _ in cells)
+    rows = []
+    for p, order in track(cells, progress):
+        peak = supremum(model, p, order)
+        head = parameter_columns(model, p, "constant")
+        found = conclude(_measured(model, p, order, peak, want), want.tolerance, label(model, head))
+        degrees = math.degrees(math.atan2(math.sqrt((1.0 - peak.mu) * (1.0 + peak.mu)), peak.mu))
+        rows.append(
+            {"model": model.name}
+            | head
+            | figures("constant", found)
+            | {"peak_theta_deg": degrees, "paper_constant": model.paper_constant(p)}
+            | {"behaviour": peak.behaviour, "order": order}
+            | ({"peak_phi_deg": math.degrees(peak.phi)} if anisotropic else {})
+        )
+    return pd.DataFrame(rows)
+
+
+def _measured(model: Model, p: object, order: str, peak: Supremum, want: Effort) -> Estimate:
+    """The constant, from an estimate of the albedo at its peak by the method asked for."""
+    first = largest_constant(peak.value)
+    if peak.behaviour == "diverges" or want.method == "quadrature" or math.isinf(first.value):
+        return first
+    mu = peak.mu or GRAZING[-1]
+    spare = peak.location_error if peak.mu else peak.value.half_width
+    allowed = want.tolerance.at(first.value) / first.value**2
+    question = Question(model, p, mu, peak.phi, order)
+    within = Tolerance(max(0.99 * allowed - spare, 0.5 * allowed))
+    at_peak = estimate(question, within, want.method, want.seed, want.threads)
+    widened = Estimate(
+        at_peak.value,
+        at_peak.standard_error,
+        at_peak.low - (spare if not peak.mu else 0.0),
+        at_peak.high + spare,
+        at_peak.samples,
+        at_peak.method,
+        at_peak.seed,
+        at_peak.non_finite,
+    )
+    return largest_constant(widened)

@@ -1,0 +1,29 @@
+"""Finds a model by its name. Importing or listing it imports no numba."""
+
+from __future__ import annotations
+
+import difflib
+from importlib import import_module
+from pkgutil import iter_modules
+
+from albedo_lab import models
+from albedo_lab.errors import BadInput
+from albedo_lab.model import Model
+
+
+def names() -> list[str]:
+    """Every name of the catalogue, in alphabetical order."""
+    return sorted(module.name for module in iter_modules(models.__path__))
+
+
+def find(name: str) -> Model:
+    """The model of that name.
+
+    Raises BadInput for an unknown name, with the nearest known ones.
+    """
+    if name not in names():
+        nearest = difflib.get_close_matches(name, names(), n=3, cutoff=0.5)
+        hint = f"did you mean {' or '.join(nearest)}?" if nearest else "see albedo-lab list"
+        raise BadInput("model", name, f"not in the catalogue; {hint}")
+    found: Model = import_module(f"{models.__name__}.{name}").MODEL
+    return found

@@ -1,0 +1,319 @@
+"""The command line: a thin door that parses, asks an analysis and prints.
+
+Analyses are imported inside the commands: --help and list must not wait for numpy, numba and pandas.
+"""
+
+from __future__ import annotations
+
+import inspect
+import os
+import signal
+import sys
+import tempfile
+import textwrap
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import click
+
+from albedo_lab import __version__, catalogue
+from albedo_lab.errors import BadInput, Inconclusive
+from albedo_lab.files import write_whole
+from albedo_lab.model import Claim, GrazingAlbedo, Maximum, Model, Parameter, Reference
+from albedo_lab.report.formats import KINDS, format_rows, format_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+THETA_DEG = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0, 89.0)
+INTERRUPTED = 128 + signal.SIGINT
+UNREAD = 128 + 13
+"""The status of a program whose reader went away (SIGPIPE): nothing failed, but not all was said."""
+
+
+class OneLine(click.Group):
+    """Turns whatever goes wrong into one line on standard error and the exit status that stands for it."""
+
+    def main(self, *args: Any, **kwargs: Any) -> NoReturn:
+        """Runs the command line and exits: 0 done, 1 a check failed, 2 bad input, 3 inconclusive, 130 interrupted."""
+        try:
+            status = super().main(*args, **(kwargs | {"standalone_mode": False}))
+        except click.ClickException as error:
+            status = fail(2, error.format_message())
+        except (BadInput, OSError) as error:
+            status = fail(2, str(error))
+        except Inconclusive as error:
+            status = fail(3, str(error))
+        except (click.Abort, KeyboardInterrupt):
+            status = INTERRUPTED
+        sys.exit(status or 0)
+
+
+def fail(status: int, message: str) -> int:
+    """Says in one line what is wrong; hands the status on."""
+    click.echo(f"albedo-lab: {' '.join(message.split())}", err=True)
+    return status
+
+
+def parsed(kind: Callable[[str], float]) -> Callable[[Any], Any]:
+    """A converter that leaves what is no number as it is: the analysis knows the domain, and says so."""
+
+    def convert(text: Any) -> Any:
+        try:
+            return kind(text)
+        except ValueError:
+            return text
+
+    return convert
+
+
+real, whole = parsed(float), parsed(int)
+
+
+def reals(text: str) -> list[Any]:
+    """A comma-separated list; an empty element stays, and is refused as a value outside its domain."""
+    return [real(item) for item in text.split(",")]
+
+
+def model_named(context: click.Context, option: click.Parameter, name: str) -> Model:
+    """The model behind the argument."""
+    return catalogue.find(name)
+
+
+def assigned(context: click.Context, option: click.Parameter, assignments: Sequence[str]) -> dict[str, list[Any]]:
+    """The values of every parameter, in the order given."""
+    values: dict[str, list[Any]] = {}
+    for assignment in assignments:
+        name, equals, several = assignment.partition("=")
+        if not (name and equals):
+            raise BadInput("parameter", assignment, "must be NAME=VALUE[,VALUE...]")
+        if name in values:
+            raise BadInput(name, several, "is given twice; several values make one list, NAME=VALUE,VALUE")
+        values[name] = reals(several)
+    return values
+
+
+def writable(context: click.Context, option: click.Parameter, text: str | None) -> Path | None:
+    """The file to write, tried out before anything is computed; links are followed, devices and folders refused."""
+    if text is None or text == "-":
+        return None
+    path = Path(os.path.realpath(text))
+    try:
+        if not os.path.basename(text) or (path.exists() and not path.is_file()):
+            raise IsADirectoryError(0, "a folder or a device")
+        tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.").close()
+    except OSError as error:
+        raise BadInput("output", text, f"must be a file that can be written ({error.strerror})") from None
+    return path
+
+
+def emit(text: str, output: Path | None) -> None:
+    """The result, in UTF-8 whatever the terminal, to the file or to standard output."""
+    if output is not None:
+        write_whole(output, text)
+        return
+    try:
+        click.echo(text.encode(), nl=False)
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or the rest of the buffer fails again at exit
+        if isinstance(error, BrokenPipeError):
+            sys.exit(UNREAD)
+        raise
+
+
+@contextmanager
+def progress_bar() -> Iterator[Callable[[int, int], None] | None]:
+    """A bar on standard error; None where that is no terminal."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    with click.progressbar(length=1, file=sys.stderr) as bar:
+
+        def advance(done: int, total: int) -> None:
+            bar.length = total
+            bar.update(done - bar.pos)
+
+        yield advance
+
+
+def together(*options: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """Several options as one decorator, in the order of the help text."""
+
+    def decorate(command: Any) -> Any:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return decorate
+
+
+MODEL = click.argument("model", callback=model_named)
+SEED = click.option("--seed", type=whole, default=0, show_default=True, metavar="N", help="Of the random numbers.")
+THREADS = click.option("--threads", type=whole, metavar="N", help="[default: as many as there are processors at hand]")
+LAYOUT = together(
+    click.option("--format", "kind", type=click.Choice(list(KINDS)), default="table", show_default=True),
+    click.option("-o", "--output", metavar="FILE", callback=writable, help="Written whole, or not at all; - is standard output."),
+)
+ESTIMATE = together(
+    MODEL,
+    click.option(
+        "-p",
+        "--parameter",
+        "parameters",
+        multiple=True,
+        callback=assigned,
+        metavar="NAME=VALUE[,VALUE...]",
+        help="Of the model, or its scale. Several values make a grid, the first parameter varying slowest.",
+    ),
+    click.option(
+        "--tolerance",
+        type=real,
+        default=1e-5,
+        show_default=True,
+        metavar="T",
+        help="Half-width of the 95 % interval that every cell must reach.",
+    ),
+    click.option("--method", type=click.Choice(["rqmc", "mc", "quadrature"]), default="rqmc", show_default=True),
+    SEED,
+    THREADS,
+    LAYOUT,
+)
+
+
+def answer(
+    question: Callable[..., pd.DataFrame],
+    model: Model,
+    parameters: dict[str, list[Any]],
+    kind: str,
+    output: Path | None,
+    **options: Any,
+) -> None:
+    """Asks an analysis about a model and prints what it says."""
+    model.bind({name: values[0] for name, values in parameters.items() if name != "scale"})  # no option is a parameter
+    with progress_bar() as progress:
+        frame = question(model, progress=progress, **options, **parameters)
+    emit(format_table(frame, kind), output)
+
+
+@click.group(cls=OneLine, no_args_is_help=False, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="albedo-lab")
+def main() -> None:
+    """Puts reflectance models (BRDFs) on trial, each figure with an honest error bar.
+
+    Exit status: 0 done, 1 a check failed, 2 bad input, 3 inconclusive within the budget.
+    """
+
+
+@main.command("list")
+@LAYOUT
+def list_models(kind: str, output: Path | None) -> None:
+    """The catalogue. Every model with its summary."""
+    emit(format_rows(["name", "summary"], [(n, catalogue.find(n).summary) for n in catalogue.names()], kind), output)
+
+
+@main.command()
+@MODEL
+def show(model: Model) -> None:
+    """One model. Its formula, parameters with domains, source and claims."""
+    emit("\n".join(description(model)) + "\n", None)
+
+
+@main.command()
+@ESTIMATE
+@click.option(
+    "--theta-deg",
+    type=reals,
+    metavar="A,B,..",
+    help=f"Angles from the normal, in degrees. [default: {','.join(f'{theta:g}' for theta in THETA_DEG)}]",
+)
+@click.option("--mu", type=reals, metavar="A,B,..", help="Their cosines instead: near grazing only these keep their digits.")
+@click.option("--phi-deg", type=reals, metavar="A,B,..", help="Azimuths, in degrees, for anisotropic models. [default: 0]")
+def albedo(mu: list[Any] | None, theta_deg: list[Any] | None, **options: Any) -> None:
+    """Directional albedo. Which share of the light from one direction comes back."""
+    from albedo_lab.analysis.albedo import albedo as question
+
+    if mu is None and theta_deg is None:
+        theta_deg = list(THETA_DEG)
+    answer(question, mu=mu, theta_deg=theta_deg, **options)
+
+
+@main.command("mean-albedo")
+@ESTIMATE
+def mean_albedo(**options: Any) -> None:
+    """Mean albedo. Which share of uniform light from the whole hemisphere comes back."""
+    from albedo_lab.analysis.mean_albedo import mean_albedo as question
+
+    answer(question, **options)
+
+
+@main.command()
+@ESTIMATE
+def normalise(**options: Any) -> None:
+    """The largest constant. What a model may carry before it creates energy."""
+    from albedo_lab.analysis.normalise import normalise as question
+
+    answer(question, **options)
+
+
+@main.command()
+@click.argument("papers", nargs=-1, metavar="[PAPER]...")
+@click.option("-o", "--output", type=click.Path(path_type=Path), default="reports", show_default=True, metavar="FOLDER")
+@SEED
+@THREADS
+def report(papers: tuple[str, ...], output: Path, seed: int, threads: int | None) -> None:
+    """The audit of the papers. Recomputes what they print, in all of them by default, and judges each figure."""
+    from albedo_lab.report.build import write_reports
+
+    with progress_bar() as progress:
+        write_reports(output, papers, seed, threads, progress)
+
+
+def description(model: Model) -> Iterator[str]:
+    """A model's record, as lines for a person."""
+    p = model.bind({})
+    references = (model.source, *model.also)
+    scale = "the largest constant that energy balance allows, computed"
+    if not isinstance(model.scale, Maximum):
+        scale = f"{model.scale(p):g} for the default parameters"
+    yield from (model.name, model.summary, "")
+    yield from entries(
+        ("f_r", model.formula),
+        ("scale", f"{model.scale_symbol}; default: {scale}"),
+        ("reciprocal", "yes" if model.reciprocal else "no: albedos are given for both orders of integration"),
+        ("smooth", f"in polar angles about the {model.smooth_in.axis.name.lower()} vector"),
+        *(("source", citation(reference)) for reference in references),
+        *(("deviation", deviation) for reference in references for deviation in reference.deviations),
+    )
+    yield from ("", "parameters")
+    yield from entries(*((parameter.name, meaning(parameter)) for parameter in model.parameters))
+    yield from ("", "claims")
+    yield from entries(*((claim.place, statement(claim, p)) for claim in model.claims))
+
+
+def meaning(parameter: Parameter) -> str:
+    """What a parameter is, and which values it takes."""
+    unit = f" {parameter.unit}" if parameter.unit else ""
+    sets = f"; sets {' and '.join(parameter.sets)}" if parameter.sets else ""
+    return f"{parameter.meaning}; in {parameter.domain}{unit}, default {parameter.default:g}{unit}{sets}"
+
+
+def statement(claim: Claim, p: Any) -> str:
+    """What the authors say of their model."""
+    where = f"where {claim.where}: " if claim.where else ""
+    value = f" value(p) = {claim.value(p):g} for the default parameters." if isinstance(claim, GrazingAlbedo) else ""
+    return f"{where}{inspect.getdoc(claim)}{value}"
+
+
+def entries(*pairs: tuple[str, str]) -> Iterator[str]:
+    """Names, and their texts wrapped beside them."""
+    width = max((len(name) for name, _ in pairs), default=0) + 4
+    for name, text in pairs:
+        yield from textwrap.wrap(text, 110, initial_indent=f"  {name}".ljust(width), subsequent_indent=" " * width)
+
+
+def citation(reference: Reference) -> str:
+    """Where a formula stands."""
+    year = f" ({reference.year})" if reference.year else ""
+    return f"{reference.authors}: {reference.title}{year}, {reference.equation}"

@@ -1,0 +1,1 @@
+"""A model and a question in, an Estimate out: scrambled Sobol points, plain Monte Carlo, or quadrature."""

@@ -1,0 +1,1 @@
+"""How formulas become machine code: jit policy, vector maths, uniforms, specialisation, templates."""

@@ -1,0 +1,1 @@
+"""Lays out what others computed: tables, plots, the audit of the documents. Computes nothing."""
