@@ -203,9 +203,7 @@ def test_status_of_the_process():
     assert (refused.returncode, refused.stdout, refused.stderr.count(b"\n")) == (2, b"", 1)
 
 
-@pytest.mark.parametrize(
-    "arguments", [["--help"], ["--version"], ["list"], ["list", "--format", "json"], ["show", "ward"]]
-)
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["list"], ["list", "--format", "json"], ["show", "ward"]])
 def test_starts_light(arguments):
     code = (
         "import sys; from albedo_lab.cli import main\n"

@@ -88,7 +88,7 @@ def _wanted(estimate: Estimate, tolerance: Tolerance, rate: float) -> float:
     allowed = tolerance.at(estimate.value)
     if not RESOLUTION * abs(estimate.value) <= allowed:
         return math.inf
-    by_error = estimate.samples * float(max(estimate.half_width, 1e-300) / allowed) ** (1.0 / rate)
+    by_error: float = estimate.samples * math.pow(max(estimate.half_width, 1e-300) / allowed, 1.0 / rate)
     return max(by_error, UNSEEN * abs(estimate.value) / allowed)
 
 

@@ -107,7 +107,7 @@ def _bound_globals(function: Callable[..., Any], bindings: dict[str, Any], memo:
         if isinstance(value, types.FunctionType):
             value = _twin(value, bindings, memo)
         namespace[name] = value
-    return {name: value for name, value in namespace.items() if value is not None}
+    return {name: value for name, value in namespace.items() if value is not None and not name.startswith("__")}
 
 
 def _twin(function: Any, bindings: dict[str, Any], memo: dict[int, Any]) -> Any:
@@ -116,7 +116,9 @@ def _twin(function: Any, bindings: dict[str, Any], memo: dict[int, Any]) -> Any:
         return getattr(vmath, function.__name__)
     if id(function) not in memo:
         namespace = _bound_globals(function, bindings, memo)
-        twin = types.FunctionType(function.__code__, namespace, function.__name__, function.__defaults__, function.__closure__)
+        held = (cell.cell_contents for cell in function.__closure__ or ())
+        closure = tuple(types.CellType(_twin(v, bindings, memo) if isinstance(v, types.FunctionType) else v) for v in held)
+        twin = types.FunctionType(function.__code__, namespace, function.__name__, function.__defaults__, closure)
         twin.__module__ = function.__module__
         memo[id(function)] = numba.njit(**(OUTLINED if hasattr(function, "outlined") else INLINE))(twin)
     return memo[id(function)]
@@ -159,8 +161,15 @@ def _feed(thing: Any, bindings: dict[str, Any], digest: Any, seen: set[int]) -> 
     elif isinstance(thing, types.ModuleType | type) or callable(thing):
         fields = getattr(thing, "_fields", "")
         digest.update(f"{getattr(thing, '__module__', '')}.{getattr(thing, '__qualname__', thing)}{fields}".encode())
+    elif hasattr(thing, "tobytes"):
+        digest.update(f"{thing.dtype}{thing.shape}".encode() + thing.tobytes())  # the repr of an array is cut short
     else:
-        digest.update(repr(thing).encode())
+        digest.update(_stable(thing).encode())
+
+
+def _stable(constant: Any) -> str:
+    """A repr that is the same in every process: sets come in no order."""
+    return repr(sorted(map(repr, constant))) if isinstance(constant, set | frozenset) else repr(constant)
 
 
 def _feed_code(code: types.CodeType, digest: Any) -> None:
@@ -169,10 +178,8 @@ def _feed_code(code: types.CodeType, digest: Any) -> None:
     for constant in code.co_consts:
         if isinstance(constant, types.CodeType):
             _feed_code(constant, digest)
-        elif isinstance(constant, frozenset):
-            digest.update(repr(sorted(map(repr, constant))).encode())
         else:
-            digest.update(repr(constant).encode())
+            digest.update(_stable(constant).encode())
 
 
 def _global_names(code: types.CodeType) -> Iterator[str]:

@@ -187,7 +187,7 @@ def radial(tolerance, work, lanes, p, n, wo, mu, si, cpo, spo, ux, uy, c, s, d, 
 
 @outlined
 def azimuth(x, stretch, scale, tolerance, work, lanes, p, wo, mu, si, cpo, spo, symmetric):
-    """The radial integrals at one distance from the plane normal to that of incidence, before and behind it: value, bound, panels."""
+    """The radial integrals at one distance from the plane normal to that of incidence, on both sides: value, bound, panels."""
     q = scale * sinh(stretch * x)
     dq = scale * stretch * cosh(stretch * x)
     ex, ey = ellipse(p)

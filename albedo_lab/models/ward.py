@@ -19,7 +19,7 @@ class Ward(NamedTuple):
 
 
 def gaussian(p: Ward, v: Direction) -> float:
-    """exp(-tan^2 delta (cos^2 phi / m_x^2 + sin^2 phi / m_y^2)) / (4 pi m_x m_y), without trigonometry from slopes v.x/v.z, v.y/v.z."""
+    """exp(-tan^2 delta (cos^2 phi / m_x^2 + sin^2 phi / m_y^2)) / (4 pi m_x m_y), from the slopes v.x/v.z and v.y/v.z."""
     x, y = v.x / (p.m_x * v.z), v.y / (p.m_y * v.z)
     return exp(-x * x - y * y) / (4.0 * pi * p.m_x * p.m_y)
 

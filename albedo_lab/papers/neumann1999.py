@@ -11,7 +11,7 @@ import numpy as np
 
 from albedo_lab.analysis.albedo import albedo
 from albedo_lab.analysis.normalise import normalise
-from albedo_lab.estimate.record import Estimate, exact
+from albedo_lab.estimate.record import NORMAL_975, Estimate, exact
 from albedo_lab.papers.audit import (
     Cell,
     Curve,
@@ -97,11 +97,13 @@ def cells(block: str, quantity: str, recipe: Callable[..., Recipe]) -> Iterator[
             yield Cell(quantity, model, at, Printed(row[column]), recipe(model, **at))
 
 
-def cells_at_infinity() -> Iterator[Cell]:
-    """The last row of table 3: limits, and the rows that approach them."""
+def table_3_cells() -> tuple[Cell, ...]:
+    """Model by model, the last row a limit, with the rows that approach it."""
+    found = list(cells(TABLE_3, "mean_albedo", mean_albedo_of))
     for model, (text, value) in TABLE_3_INFINITY.items():
         approach = {name: mean_albedo_of(model, n=n) for name, n in TOWARDS_INFINITY.items()}
-        yield Cell("mean_albedo", model, {"n": inf}, Printed(text, exact=True), limit(value), approach)
+        found.append(Cell("mean_albedo", model, {"n": inf}, Printed(text, exact=True), limit(value), approach))
+    return tuple(sorted(found, key=lambda cell: list(TABLE_3_INFINITY).index(cell.model)))
 
 
 def overshoot(means: Means) -> Estimate:
@@ -119,14 +121,14 @@ def overshoot(means: Means) -> Estimate:
 
 def overshoot_angle(means: Means) -> Estimate:
     """Where that is: every angle of a walk at which the albedo may be the largest within its bound, and a step more."""
-    low, high, step = 0.0, 89.0, 1.0
+    low, high = 0.0, 89.0
     for step in (1.0, 0.01):
         walk = np.arange(low, high + step / 2.0, step)
         table = albedo("stretched_phong", n=1, theta_deg=walk.tolist(), tolerance=1e-9, method="quadrature")
         largest = walk[table.ci95_high >= table.ci95_low.max()]
         low, high = float(largest[0]) - step, float(largest[-1]) + step
     best, half = 0.5 * (low + high), 0.5 * (high - low)
-    return Estimate(best, half / 1.96, low, high, int(table.samples.sum()), "quadrature")
+    return Estimate(best, half / NORMAL_975, low, high, int(table.samples.sum()), "quadrature")
 
 
 def normalise_angle(means: Means) -> Estimate:
@@ -246,7 +248,7 @@ He-Torrance, which the paper's figure also shows, are not yet in the catalogue."
 
 PAPER = Paper(
     "neumann1999",
-    "L. Neumann, A. Neumann, L. Szirmay-Kalos: Compact Metallic Reflectance Models. Computer Graphics Forum 18 (3), 1999",
+    "L. Neumann, A. Neumann, L. Szirmay-Kalos: Compact Metallic Reflectance Models. Computer Graphics Forum 18, 1999",
     FOUND,
     tables=(
         Table(
@@ -260,7 +262,7 @@ PAPER = Paper(
             "table_3",
             "Mean albedo of the Phong and Blinn models",
             "table 3",
-            (*cells(TABLE_3, "mean_albedo", mean_albedo_of), *cells_at_infinity()),
+            table_3_cells(),
             NOTE_TABLE_3,
         ),
         Table(

@@ -85,10 +85,9 @@ def judge(printed: Printed, ours: Estimate) -> Verdict:
         raise Inconclusive(f"printed {printed.text}: our own figure is not a number")
     if math.isinf(ours.value):
         return Verdict(Kind.REFUTED, None)
-    low, high = Fraction(ours.low), Fraction(ours.high)
-    if high - low > printed.resolution:
+    if not ours.high - ours.low <= printed.resolution:
         raise Inconclusive(f"printed {printed.text}: our interval [{ours.low:g}, {ours.high:g}] is too wide to judge it")
-    gap = max(low - printed.value, printed.value - high, Fraction(0))
+    gap = max(Fraction(ours.low) - printed.value, printed.value - Fraction(ours.high), Fraction(0))
     if not printed.unit:
         return Verdict(Kind.REFUTED, None) if gap else Verdict(Kind.AGREES)
     units = max(0, math.ceil(gap / printed.unit - Fraction(1, 2)))

@@ -10,13 +10,13 @@ from fractions import Fraction
 from albedo_lab.estimate.record import Estimate
 from albedo_lab.papers.audit import Cell, Finding, Table
 from albedo_lab.papers.verdict import Kind
-from albedo_lab.report.formats import as_csv, as_latex, as_markdown
+from albedo_lab.report.formats import LATEX, as_csv, as_latex, as_markdown
 
 READER = ("model", "at", "printed", "ours", "verdict")
 DOUBTER = (*READER[:-1], "by another way", READER[-1])
 QUANTITIES = {
     "overshoot": "largest albedo − 1",
-    "overshoot_angle_deg": "angle of the largest albedo (degrees)",
+    "overshoot_angle_deg": "its angle in degrees",
     "grazing_albedo": "albedo at 90°",
 }
 SYMBOLS = {"theta_deg": "θ"}
@@ -73,7 +73,9 @@ def with_error(e: Estimate, finest: float = 0.0) -> str:
 
 
 def ours(finding: Finding) -> str:
-    """Our figure, to a thousandth of the printed unit at most."""
+    """Our figure, to a thousandth of the printed unit at most; an argued limit says that it is one."""
+    if finding.ours.method == "limit":
+        return f"{with_error(finding.ours)} (limit)"
     return with_error(finding.ours, float(finding.cell.printed.resolution) / 1000.0)
 
 
@@ -117,7 +119,7 @@ def csv_table(findings: Sequence[Finding]) -> str:
             [
                 *(
                     f.cell.model,
-                    *(f.cell.parameters.get(name) for name in parameters),
+                    *at,
                     f.cell.quantity,
                     f.cell.printed.text,
                 ),
@@ -144,7 +146,7 @@ def latex_table(table: Table, findings: Sequence[Finding]) -> str:
     for row, before in reversed(list(zip(rows[1:], rows, strict=False))):
         row[0] = "" if row[0] == before[0] else row[0]
     head, body = as_latex(READER, rows).translate(TEX).split("\n", 1)
-    caption = f"{table.title} ({table.place}): as printed, and recomputed with an error bound.".translate(TEX)
+    caption = f"{table.title} ({table.place}): as printed, and recomputed with an error bound.".translate(LATEX | TEX)
     return (
         f"{head}\n\\begin{{table}}\n\\centering\\footnotesize\n\\caption{{{caption}}}\\label{{tab:{table.name}}}\n"
         f"{body}\\end{{table}}\n"

@@ -102,13 +102,10 @@ def value(integrate: Callable[..., float], careful: bool, subject: Subject, tole
 def ratios(times: Times) -> list[str]:
     """What the table must show."""
     plain, fine = "dblquad, plain", 1e-9
-    lines = [
-        f"- plain Monte Carlo over rqmc at 1e-06: {verdict(ratio(times, 'mc 1e-06', str(('rqmc', 1e-6))), 10_000.0)}"
-    ]
+    lines = [f"- plain Monte Carlo over rqmc at 1e-06: {verdict(ratio(times, 'mc 1e-06', str(('rqmc', 1e-6))), 10_000.0)}"]
     quadrature = str(("quadrature", fine))
     lines.append(f"- {plain} over quadrature at 1e-09: {verdict(ratio(times, str((plain, fine)), quadrature), 100.0)}")
     others = [method for method in SCIPY if method != plain]
     return lines + [
-        f"- {method} over quadrature at 1e-09: {digits(ratio(times, str((method, fine)), quadrature))}x"
-        for method in others
+        f"- {method} over quadrature at 1e-09: {digits(ratio(times, str((method, fine)), quadrature))}x" for method in others
     ]

@@ -28,9 +28,7 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def averaging(
-    model: Model, p: Any, samples: int, scrambled: bool, generic: bool, stream: int = 0
-) -> Callable[[], Moments]:
+def averaging(model: Model, p: Any, samples: int, scrambled: bool, generic: bool, stream: int = 0) -> Callable[[], Moments]:
     """A call that averages so many sample weights (rounded up to whole blocks) with the compiled kernel."""
     kernel = sampling_kernel(model, False, scrambled, generic=generic)
     values, direction, blocks = tuple(map(float, p)), incident(MU, 0.0), -(-samples // BLOCK)

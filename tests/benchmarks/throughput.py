@@ -41,9 +41,7 @@ def catalogue(quick: bool) -> str:
 
     columns = [(m, w, t) for m in METHODS for w in WEIGHTS for t in ("one", "all")]
     head = ["model", *(f"{m} {w}, {1 if t == 'one' else threads} thr." for m, w, t in columns)]
-    rows = [
-        [name, *(cell(f"{name} {m} {w} {t}", 1 if t == "one" else threads) for m, w, t in columns)] for name in names()
-    ]
+    rows = [[name, *(cell(f"{name} {m} {w} {t}", 1 if t == "one" else threads) for m, w, t in columns)] for name in names()]
     return (
         f"## Samples a second, in millions, per model at {THETA_DEG} degrees, default parameters\n\n"
         "`contract`: sample, evaluate, pdf; `reduced`: the weight f cos / pdf reduced by hand, where a model has one. "
@@ -105,9 +103,7 @@ def one_subject(subject: Subject, mitsuba: Mitsuba, quick: bool) -> str:
     runs = contenders(subject, quick)
     answers = {name: run() for name, run in runs.items()}
     times = interleave({name: timed(run) for name, run in runs.items()} | mitsuba.measures(), 5 if quick else 15)
-    samples = {name: answer.samples for name, answer in answers.items()} | dict.fromkeys(
-        mitsuba.measures(), mitsuba.samples
-    )
+    samples = {name: answer.samples for name, answer in answers.items()} | dict.fromkeys(mitsuba.measures(), mitsuba.samples)
     per_sample = {name: [t / samples[name] for t in found] for name, found in times.items()}
     generic, reduced = "albedo_lab mc, contract", "albedo_lab mc, reduced"
     rows = []
@@ -147,7 +143,5 @@ def one_subject(subject: Subject, mitsuba: Mitsuba, quick: bool) -> str:
     ):
         for ours, least in zip((generic, reduced), wanted, strict=True):
             if against:
-                lines.append(
-                    f"- {ours} over {label}: {verdict(min(ratio(per_sample, n, ours) for n in against), least)}"
-                )
+                lines.append(f"- {ours} over {label}: {verdict(min(ratio(per_sample, n, ours) for n in against), least)}")
     return "\n".join(lines)

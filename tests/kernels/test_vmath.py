@@ -156,9 +156,7 @@ def claims() -> dict[str, Claim]:
 
 
 CLAIMS = claims()
-CASES = [
-    pytest.param(name, where, id=f"{name}, {where}") for name, claim in CLAIMS.items() for where in claim.arguments
-]
+CASES = [pytest.param(name, where, id=f"{name}, {where}") for name, claim in CLAIMS.items() for where in claim.arguments]
 
 
 def scalar(module: ModuleType, name: str) -> Callable[..., float]:
@@ -238,9 +236,7 @@ def test_error_is_within_its_bound(name, where):
 def test_absolute_error_of_sine_and_cosine(name):
     u = CLAIMS[name].arguments["2^20 turns"][0]
     with mpmath.workdps(DIGITS):
-        error = max(
-            abs(mpf(float(v)) - CLAIMS[name].exact(mpf(float(x)))) for v, x in zip(values(name, u), u, strict=True)
-        )
+        error = max(abs(mpf(float(v)) - CLAIMS[name].exact(mpf(float(x)))) for v, x in zip(values(name, u), u, strict=True))
     assert error <= 1.7e-16
 
 

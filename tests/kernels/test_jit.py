@@ -1,0 +1,87 @@
+"""The disk cache of kernels hits in a new process and is never stale."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from albedo_lab.kernels.jit import Placeholder, specialise
+
+MODEL = """
+from typing import NamedTuple
+from callee import shape
+from albedo_lab.model import Model, Parameter, Reference
+
+class P(NamedTuple):
+    k: float
+
+def evaluate(p, wi, wo):
+    return p.k * shape(wi)
+
+MODEL = Model("mine", "k", P, (Parameter("k", "k", 1.0, 0.0, 1.0),), evaluate,
+              Reference("me", "mine", 2026, "1"), scale=lambda p: 1.0)
+"""
+ASK = """
+import sys
+from mine import MODEL
+from albedo_lab import albedo
+from albedo_lab.kernels.quadrature import quadrature_kernel
+print(albedo(MODEL, mu=0.5, method="quadrature").albedo[0])
+print(sum(quadrature_kernel(MODEL).stats.cache_hits.values()))
+"""
+
+
+def ask(folder: Path) -> tuple[float, int]:
+    """The albedo of the user's model and the number of cache hits, from a fresh process."""
+    done = subprocess.run(
+        [sys.executable, "-B", "-c", ASK],
+        cwd=folder,
+        env=os.environ | {"ALBEDO_LAB_CACHE": str(folder / "cache"), "PYTHONPATH": f"{folder}{os.pathsep}{Path.cwd()}"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    value, hits = done.stdout.split()
+    return float(value), int(hits)
+
+
+def test_an_edit_in_a_callee_of_another_file_is_seen_and_an_unchanged_model_comes_from_disk(tmp_path: Path) -> None:
+    (tmp_path / "mine.py").write_text(MODEL)
+    callee = tmp_path / "callee.py"
+    callee.write_text("def shape(w):\n    return 0.25\n")
+    assert ask(tmp_path) == (pytest.approx(0.25 * 3.141592653589793), 0)
+    assert ask(tmp_path) == (pytest.approx(0.25 * 3.141592653589793), 1)
+    stamp = callee.stat()
+    callee.write_text("def shape(w):\n    return 0.75\n")
+    os.utime(callee, (stamp.st_atime, stamp.st_mtime))  # not even the time of the file tells
+    assert ask(tmp_path) == (pytest.approx(0.75 * 3.141592653589793), 0)
+
+
+number = Placeholder("number")
+
+
+def twice(x):
+    return 2.0 * number(x)
+
+
+def one(x):
+    return 1.0 + x
+
+
+def two(x):
+    return 2.0 + x
+
+
+def test_the_same_template_serves_several_models_in_one_process() -> None:
+    assert specialise(twice, number=one)(0.5) == 3.0
+    assert specialise(twice, number=two)(0.5) == 5.0
+    assert specialise(twice, number=one) is specialise(twice, number=one)
+
+
+def test_an_unwritable_cache_costs_time_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("no folder")
+    monkeypatch.setenv("ALBEDO_LAB_CACHE", str(blocked))
+    assert specialise(twice, number=lambda x: x - 1.0)(0.5) == -1.0

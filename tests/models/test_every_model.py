@@ -1,0 +1,325 @@
+"""What must hold of every model of the catalogue, at the ends of its parameters and at grazing angles; broken twins must fail it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings, strategies
+
+from albedo_lab import catalogue
+from albedo_lab.estimate.methods import estimate
+from albedo_lab.estimate.record import Estimate
+from albedo_lab.estimate.sampling import rqmc
+from albedo_lab.kernels.sampling import NON_FINITE, SUM, sampling_kernel
+from albedo_lab.model import Model
+from albedo_lab.models.blinn import MODEL as BLINN
+from albedo_lab.models.phong import MODEL as PHONG
+from albedo_lab.models.phong_original import MODEL as PHONG_ORIGINAL
+from albedo_lab.models.retro_phong import MODEL as RETRO_PHONG
+from albedo_lab.models.retro_phong import sample as sample_retro
+from albedo_lab.models.stretched_phong import MODEL as STRETCHED_PHONG
+from albedo_lab.models.ward import MODEL as WARD
+from albedo_lab.models.ward import Ward, gaussian
+from albedo_lab.models.ward import sample as sample_ward
+from albedo_lab.optics.frame import Direction, bisector, cosine_power, mirror_of
+from tests.models import trial
+from tests.models.trial import Cell
+
+NAMES = catalogue.names()
+SEED = 1999
+QUICK = 1 << 20
+AFFORDABLE = 1 << 28
+"""Samples a cell may cost in the fast tests; what does not reach its tolerance with them must still be honest."""
+HISTOGRAMS = 30
+
+every_model = pytest.mark.parametrize("name", NAMES)
+quick = settings(max_examples=60, deadline=None, derandomize=True, database=None)
+
+
+# Values
+
+
+@every_model
+def test_f_is_finite_and_not_negative(name: str) -> None:
+    model = catalogue.find(name)
+
+    @quick
+    @given(trial.bindings(model), trial.pairs())
+    def check(p: Any, pair: tuple[Direction, Direction]) -> None:
+        f, density = model.evaluate(p, *pair), model.pdf(p, *pair)
+        assert math.isfinite(f)
+        assert f >= 0.0
+        assert math.isfinite(density)
+        assert density >= 0.0
+
+    check()
+
+
+@every_model
+def test_sampled_directions_are_unit_and_their_weights_finite(name: str) -> None:
+    model = catalogue.find(name)
+    uniforms = strategies.sampled_from((2.0**-33, 0.25, 0.5, 1.0 - 2.0**-33)) | strategies.floats(2.0**-33, 1 - 2.0**-33)
+
+    @quick
+    @given(trial.bindings(model), trial.directions(), uniforms, uniforms)
+    def check(p: Any, wo: Direction, u1: float, u2: float) -> None:
+        wi = model.sample(p, wo, u1, u2)
+        assert math.isclose(wi.x**2 + wi.y**2 + wi.z**2, 1.0, rel_tol=1e-12)
+        if wi.z > 0.0:
+            weight = model.evaluate(p, wi, wo) * wi.z / model.pdf(p, wi, wo)
+            assert math.isfinite(weight)
+            assert weight >= 0.0
+
+    check()
+
+
+@every_model
+def test_reciprocity_is_as_declared(name: str) -> None:
+    model = catalogue.find(name)
+    if model.reciprocal:
+        trial.assert_reciprocal(model, *trial.parameter_sets(model))
+    else:
+        with pytest.raises(AssertionError):
+            trial.assert_reciprocal(model, *trial.parameter_sets(model))
+
+
+@every_model
+def test_turning_the_surface_changes_nothing_unless_the_model_is_anisotropic(name: str) -> None:
+    model = catalogue.find(name)
+    for p in trial.parameter_sets(model):
+        f = [model.evaluate(p, trial.at(0.8, 0.3 + turn), trial.at(0.6, 2.5 + turn)) for turn in (0.0, 1.0)]
+        assert math.isclose(*f, rel_tol=1e-6) == model.isotropic(p)
+
+
+# Samplers
+
+
+@every_model
+def test_density_integrates_to_one_less_the_rejected_share(name: str) -> None:
+    model = catalogue.find(name)
+    for p, mu in product(trial.parameter_sets(model), trial.GRAZING):
+        trial.assert_normalised(model, p, mu)
+
+
+@every_model
+def test_samples_follow_the_density(name: str) -> None:
+    model = catalogue.find(name)
+    for p, mu in trial.moderate_sets(model):
+        trial.assert_follows_density(model, p, mu, HISTOGRAMS)
+
+
+# Albedos against the stored oracle
+
+
+def rqmc_answers(model: Model, cells: list[Cell]) -> list[tuple[Cell, Estimate]]:
+    """Every cell with random numbers of its own: the misses of a table that shares them would not be independent."""
+    return [(cell, rqmc(cell.question(model), trial.relative(1e-5), SEED + cell.index, 1, budget=QUICK)) for cell in cells]
+
+
+@cache
+def quick_answers(name: str) -> list[tuple[Cell, Estimate]]:
+    return rqmc_answers(catalogue.find(name), trial.cells_of(name))
+
+
+@every_model
+def test_rqmc_agrees_with_the_oracle(name: str) -> None:
+    for cell, answer in quick_answers(name):
+        assert answer.non_finite == 0
+        trial.assert_no_gross_error(cell, answer)
+
+
+@every_model
+def test_quadrature_agrees_with_the_oracle(name: str) -> None:
+    model, tolerance = catalogue.find(name), trial.relative(1e-5)
+    for cell in trial.cells_of(name):
+        if cell.order == "wi":  # the other order is one more kernel; see the slow tests
+            answer = estimate(cell.question(model), tolerance, "quadrature", SEED, 1)
+            assert answer.reaches(tolerance)
+            trial.assert_within_bound(cell, answer)
+
+
+def test_rqmc_intervals_are_honest() -> None:
+    trial.assert_intervals_are_honest([pair for name in NAMES for pair in quick_answers(name)])
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if catalogue.find(name).weight])
+def test_the_compiled_weight_is_the_contract(name: str) -> None:
+    """The hand-reduced kernel and the generic one, over the same points."""
+    model = catalogue.find(name)
+    kernels = [sampling_kernel(model, False, True, "wi", generic) for generic in (False, True)]
+    keys = tuple(np.uint32(key) for key in (1, 2, 3, 4))
+    for p, mu in product(trial.parameter_sets(model), trial.GRAZING):
+        moments = np.zeros((2, 4))
+        for kernel, row in zip(kernels, moments, strict=True):
+            kernel(0, 8, np.uint32(0), keys, tuple(map(float, p)), trial.at(mu, 0.4), row)
+        reduced, generic = moments
+        assert math.isclose(reduced[SUM], generic[SUM], rel_tol=1e-9)
+        assert reduced[NON_FINITE] == generic[NON_FINITE] == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("order", ["wi", "wo"])
+def test_both_orders_of_integration(order: str) -> None:
+    """The only model that tells them apart, in the order that the fast tests leave out as well."""
+    for cell in trial.cells_of("phong_original"):
+        if cell.order == order:
+            answer = estimate(cell.question(PHONG_ORIGINAL), trial.relative(1e-8), "quadrature", SEED, 1)
+            trial.assert_within_bound(cell, answer)
+
+
+@pytest.mark.slow
+def test_every_cell_at_a_tolerance_of_a_millionth() -> None:
+    """Quadrature and rqmc agree with each other and with the oracle; what samples cannot reach says so by its interval."""
+    tolerance = trial.relative(1e-6)
+    answers, reached = [], 0
+    for cell in trial.reference():
+        question = cell.question(catalogue.find(cell.name))
+        exact = estimate(question, tolerance, "quadrature", SEED, 1)
+        assert exact.reaches(tolerance)
+        trial.assert_within_bound(cell, exact)
+        answer = rqmc(question, tolerance, SEED + cell.index, 2, budget=AFFORDABLE)
+        reached += answer.reaches(tolerance)
+        trial.assert_no_gross_error(cell, answer)
+        assert abs(exact.value - answer.value) <= exact.half_width + trial.allowance(answer)
+        answers.append((cell, answer))
+    trial.assert_intervals_are_honest(answers)
+    assert reached >= 0.97 * len(answers)
+
+
+# Broken twins: each check must see the fault that it is there for
+
+
+def test_a_model_against_itself_passes() -> None:
+    """The control of the controls: the same calls on the sound models."""
+    trial.assert_normalised(BLINN, BLINN.bind({"n": 20.0}), 0.5)
+    trial.assert_follows_density(PHONG, PHONG.bind({"n": 20.0}), 0.2, HISTOGRAMS)
+
+
+def blinn_pdf_without_jacobian(p: Any, wi: Direction, wo: Direction) -> float:
+    v = bisector(wi, wo)
+    return BLINN.pdf(p, wi, wo) * 2.0 * math.sqrt(v.x * v.x + v.y * v.y + v.z * v.z)
+
+
+def ward_pdf_without_jacobian(p: Ward, wi: Direction, wo: Direction) -> float:
+    v = bisector(wi, wo)
+    return gaussian(p, v) * (v.x * v.x + v.y * v.y + v.z * v.z) ** 1.5 / (v.z * v.z * v.z)
+
+
+@pytest.mark.parametrize(
+    "twin",
+    [replace(BLINN, pdf=blinn_pdf_without_jacobian), replace(WARD, pdf=ward_pdf_without_jacobian)],
+    ids=["blinn", "ward"],
+)
+def test_a_density_without_the_jacobian_of_reflection_is_caught(twin: Model) -> None:
+    p, mu = trial.moderate_sets(twin)[-1]
+    with pytest.raises(AssertionError):
+        trial.assert_normalised(twin, p, mu)
+    with pytest.raises(AssertionError):
+        trial.assert_follows_density(twin, p, mu, HISTOGRAMS)
+
+
+def pdf_one_percent_too_large(p: Any, wi: Direction, wo: Direction) -> float:
+    return 1.01 * PHONG.pdf(p, wi, wo)
+
+
+def ward_sample_half_a_turn(p: Ward, wo: Direction, u1: float, u2: float) -> Direction:
+    return sample_ward(p, wo, u1, 0.5 * u2)
+
+
+@pytest.mark.parametrize(
+    "twin",
+    [
+        replace(PHONG, pdf=pdf_one_percent_too_large),
+        replace(PHONG, sample=sample_retro),
+        replace(WARD, sample=ward_sample_half_a_turn),
+    ],
+    ids=["1 % too large", "wrong axis", "half the azimuths"],
+)
+def test_samples_that_do_not_follow_their_density_are_caught(twin: Model) -> None:
+    p, mu = trial.moderate_sets(twin)[-1]
+    with pytest.raises(AssertionError):
+        trial.assert_follows_density(twin, p, mu, HISTOGRAMS)
+
+
+def phong_one_percent_too_bright(p: Any, wi: Direction, wo: Direction) -> float:
+    return 1.01 * cosine_power(mirror_of(wo), wi, p.n)
+
+
+def phong_original_swapped(p: Any, wi: Direction, wo: Direction) -> float:
+    return cosine_power(mirror_of(wi), wo, p.n) / wo.z
+
+
+BROKEN_ALBEDOS = {
+    "1 % too bright": replace(PHONG, evaluate=phong_one_percent_too_bright),
+    "wi and wo swapped": replace(PHONG_ORIGINAL, evaluate=phong_original_swapped),
+}
+
+
+def tilted_cells(twin: Model) -> list[Cell]:
+    return [cell for cell in trial.cells_of(twin.name) if cell.order == "wi" and cell.mu < 1.0][:6]
+
+
+@pytest.mark.parametrize("fault", BROKEN_ALBEDOS)
+def test_a_wrong_albedo_is_caught(fault: str) -> None:
+    twin = BROKEN_ALBEDOS[fault]
+    answers = rqmc_answers(twin, tilted_cells(twin))
+    for cell, answer in answers:
+        with pytest.raises(AssertionError):
+            trial.assert_no_gross_error(cell, answer)
+    with pytest.raises(AssertionError):
+        trial.assert_intervals_are_honest(answers)
+
+
+def test_a_bound_that_does_not_hold_is_caught() -> None:
+    twin = BROKEN_ALBEDOS["1 % too bright"]
+    for cell in tilted_cells(twin):
+        with pytest.raises(AssertionError):
+            trial.assert_within_bound(cell, estimate(cell.question(twin), trial.relative(1e-5), "quadrature", SEED, 1))
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_intervals_of_the_wrong_width_are_caught(factor: float) -> None:
+    """Half as wide they would miss 33 times in 100, twice as wide once in 10000 (and 0 misses of 500 is too few)."""
+
+    def resized(answer: Estimate) -> Estimate:
+        width = factor * answer.half_width
+        return replace(answer, low=answer.value - width, high=answer.value + width)
+
+    answers = [(cell, resized(answer)) for name in NAMES for cell, answer in quick_answers(name)]
+    with pytest.raises(AssertionError):
+        trial.assert_intervals_are_honest(answers)
+
+
+def with_half_the_azimuth(evaluate: Callable[..., float]) -> Callable[..., float]:
+    def halved(p: Any, wi: Direction, wo: Direction) -> float:
+        return evaluate(p, trial.at(wi.z, 0.5 * math.atan2(wi.y, wi.x)), wo)
+
+    return halved
+
+
+def test_a_formula_with_half_the_azimuth_is_caught() -> None:
+    p = PHONG.bind({"n": 5.0})
+    with pytest.raises(AssertionError):
+        trial.assert_formula(
+            replace(PHONG, evaluate=with_half_the_azimuth(PHONG.evaluate)),
+            p,
+            lambda light, viewer, turn: trial.mirror_cosine(light, viewer, turn) ** p.n,
+        )
+
+
+def test_a_lobe_about_the_wrong_axis_is_caught() -> None:
+    """Its albedo is right, since mirror and retro lobes are images of each other; its formula is not."""
+    p = STRETCHED_PHONG.bind({"n": 5.0})
+    with pytest.raises(AssertionError):
+        trial.assert_formula(
+            replace(STRETCHED_PHONG, evaluate=RETRO_PHONG.evaluate),
+            p,
+            lambda light, viewer, turn: trial.mirror_cosine(light, viewer, turn) ** p.n / trial.larger_cosine(light, viewer),
+        )
