@@ -98,37 +98,32 @@ def doubter_rows(findings: Iterable[Finding]) -> list[list[str]]:
 def csv_table(findings: Sequence[Finding]) -> str:
     """Every digit, the second way included."""
     parameters = list(dict.fromkeys(name for f in findings for name in f.cell.parameters))
-    names = [
-        *("model", *parameters, "quantity", "printed", "ours", "standard_error", "ci95_low", "ci95_high"),
-        *("samples", "method", "verdict", "units_off"),
-        *(
-            "again",
-            "again_standard_error",
-            "again_ci95_low",
-            "again_ci95_high",
-            "again_samples",
-            "again_method",
-            "again_seed",
-        ),
-    ]
-    rows = []
-    for f in findings:
-        way, second = list(f.again.items())[-1]
-        how = way if way == second.method else f"{second.method}, {way}"
-        rows.append(
-            [
-                *(
-                    f.cell.model,
-                    *at,
-                    f.cell.quantity,
-                    f.cell.printed.text,
-                ),
-                *(f.ours.value, f.ours.standard_error, f.ours.low, f.ours.high, f.ours.samples, f.ours.method),
-                *(f.verdict, f.verdict.units),
-                *(second.value, second.standard_error, second.low, second.high, second.samples, how, second.seed),
-            ]
-        )
-    return as_csv(names, rows)
+    rows = [csv_row(f, parameters) for f in findings]
+    return as_csv(list(rows[0]), [list(row.values()) for row in rows])
+
+
+def csv_row(f: Finding, parameters: Sequence[str]) -> dict[str, object]:
+    """A cell as columns, one for each parameter of its table. Of several other ways the last is the best."""
+    way, second = list(f.again.items())[-1]
+    return {
+        "model": f.cell.model,
+        **{name: float(f.cell.parameters[name]) if name in f.cell.parameters else None for name in parameters},
+        "quantity": f.cell.quantity,
+        "printed": f.cell.printed.text,
+        **figures("ours", f.ours),
+        "method": f.ours.method,
+        "verdict": str(f.verdict),
+        "units_off": f.verdict.units,
+        **figures("again", second, "again_"),
+        "again_method": way if way == second.method else f"{second.method}, {way}",
+        "again_seed": second.seed,
+    }
+
+
+def figures(name: str, e: Estimate, prefix: str = "") -> dict[str, object]:
+    """A figure with its error as columns."""
+    columns = {"standard_error": e.standard_error, "ci95_low": e.low, "ci95_high": e.high, "samples": e.samples}
+    return {name: e.value} | {prefix + column: value for column, value in columns.items()}
 
 
 def markdown_table(table: Table, findings: Sequence[Finding]) -> str:
