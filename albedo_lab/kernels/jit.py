@@ -4,6 +4,9 @@ numba's own disk cache never hits for a jitted function that is passed as an arg
 of another file. So a kernel is made thus: an entry function (a template) refers to a model's functions by placeholders; for one
 model it is written out as a stub whose name carries a fingerprint of everything reachable from it (byte code, constants,
 globals, vector maths, numba's version), and the model's functions are compiled as globals of that stub.
+
+Every function is inlined, and not for speed alone: one that stays a call exists twice in the process that compiles it, optimised
+by itself and within the kernel, and only the second copy goes to disk; a cold and a warm cache would differ in the last bits.
 """
 
 from __future__ import annotations
@@ -27,8 +30,7 @@ from numba.extending import intrinsic
 from albedo_lab.kernels import vmath
 from albedo_lab.kernels.vmath import FLAGS, INLINE
 
-OUTLINED: dict[str, Any] = {"fastmath": FLAGS, "error_model": "numpy"}
-ENTRY: dict[str, Any] = {**OUTLINED, "nogil": True}
+ENTRY: dict[str, Any] = {"fastmath": FLAGS, "error_model": "numpy", "nogil": True}
 INTRINSIC = type(intrinsic(lambda typingctx: None))
 
 
@@ -41,12 +43,6 @@ class Placeholder:
     def __call__(self, *arguments: Any) -> Any:
         """Never called: specialise puts the model's function in its place."""
         raise TypeError(f"{self.name} is a placeholder; see specialise")
-
-
-def outlined(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Marks a function of a template as too large to be inlined at every call."""
-    function.outlined = True  # type: ignore[attr-defined]
-    return function
 
 
 def specialise(template: Callable[..., Any], **bindings: Any) -> Callable[..., Any]:
@@ -120,7 +116,7 @@ def _twin(function: Any, bindings: dict[str, Any], memo: dict[int, Any]) -> Any:
         closure = tuple(types.CellType(_twin(v, bindings, memo) if isinstance(v, types.FunctionType) else v) for v in held)
         twin = types.FunctionType(function.__code__, namespace, function.__name__, function.__defaults__, closure)
         twin.__module__ = function.__module__
-        memo[id(function)] = numba.njit(**(OUTLINED if hasattr(function, "outlined") else INLINE))(twin)
+        memo[id(function)] = numba.njit(**INLINE)(twin)
     return memo[id(function)]
 
 

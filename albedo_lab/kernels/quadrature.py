@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from albedo_lab.kernels.jit import Placeholder, outlined, specialise
+from albedo_lab.kernels.jit import Placeholder, specialise
 from albedo_lab.kernels.kronrod import GAUSS, KRONROD, LANES, NODES
 from albedo_lab.model import Model
 from albedo_lab.optics.coordinates import Axis
@@ -120,7 +120,6 @@ def integrand(y, p, n, wo, mu, si, cpo, spo, ux, uy, c, s, d, area):
     return value if z > 0.0 else 0.0
 
 
-@outlined
 def panel(a, b, low, high, lanes, p, n, wo, mu, si, cpo, spo, ux, uy, c, s, d, area):
     """K31 and |K31 - G15| over x in [a, b], where y = high - (high - low)(1 - x)^2 crowds the points at the horizon's end."""
     middle, half = 0.5 * (a + b), 0.5 * (b - a)
@@ -137,7 +136,6 @@ def panel(a, b, low, high, lanes, p, n, wo, mu, si, cpo, spo, ux, uy, c, s, d, a
     return kronrod * scale, abs(kronrod - gauss) * scale
 
 
-@outlined
 def radial(tolerance, work, lanes, p, n, wo, mu, si, cpo, spo, ux, uy, c, s, d, area):
     """Integral over the slope along one azimuth: value, bound, panels used.
 
@@ -185,7 +183,6 @@ def radial(tolerance, work, lanes, p, n, wo, mu, si, cpo, spo, ux, uy, c, s, d, 
         count += 1
 
 
-@outlined
 def azimuth(x, stretch, scale, tolerance, work, lanes, p, wo, mu, si, cpo, spo, symmetric):
     """The radial integrals at one distance from the plane normal to that of incidence, on both sides: value, bound, panels."""
     q = scale * sinh(stretch * x)
@@ -216,7 +213,6 @@ def azimuth(x, stretch, scale, tolerance, work, lanes, p, wo, mu, si, cpo, spo, 
     return value * factor, error * factor, used
 
 
-@outlined
 def outer_panel(a, b, stretch, scale, tolerance, work, lanes, p, wo, mu, si, cpo, spo, symmetric):
     """K31, |K31 - G15|, the inner bounds integrated along, and panels used, over [a, b] of the stretched azimuth."""
     middle, half = 0.5 * (a + b), 0.5 * (b - a)

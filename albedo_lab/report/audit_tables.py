@@ -122,8 +122,13 @@ def csv_row(f: Finding, parameters: Sequence[str]) -> dict[str, object]:
 
 def figures(name: str, e: Estimate, prefix: str = "") -> dict[str, object]:
     """A figure with its error as columns."""
-    columns = {"standard_error": e.standard_error, "ci95_low": e.low, "ci95_high": e.high, "samples": e.samples}
-    return {name: e.value} | {prefix + column: value for column, value in columns.items()}
+    columns: dict[str, object] = {
+        "standard_error": e.standard_error,
+        "ci95_low": e.low,
+        "ci95_high": e.high,
+        "samples": e.samples,
+    }
+    return {name: e.value, **{prefix + column: value for column, value in columns.items()}}
 
 
 def markdown_table(table: Table, findings: Sequence[Finding]) -> str:

@@ -59,6 +59,27 @@ def test_an_edit_in_a_callee_of_another_file_is_seen_and_an_unchanged_model_come
     assert ask(tmp_path) == (pytest.approx(0.75 * 3.141592653589793), 0)
 
 
+DIGITS = """
+from albedo_lab import albedo, mean_albedo
+for options in ({"method": "quadrature", "tolerance": 1e-8}, {"tolerance": 1e-4}):
+    table = albedo("ward", m=0.1, theta_deg=[0, 60, 89.995, 89.999], **options)
+    print([x.hex() for name in ("albedo", "standard_error", "ci95_low") for x in table[name]])
+print(mean_albedo("ward", m=0.1, tolerance=1e-4).mean_albedo[0].hex())
+"""
+
+
+def test_a_cold_and_a_warm_cache_give_the_same_bits(tmp_path: Path) -> None:
+    """The process that compiles a kernel and the one that loads it must run the same code."""
+
+    def digits() -> str:
+        environment = os.environ | {"ALBEDO_LAB_CACHE": str(tmp_path)}
+        return subprocess.run([sys.executable, "-c", DIGITS], env=environment, capture_output=True, text=True, check=True).stdout
+
+    cold = digits()
+    assert len(list(tmp_path.glob("kernel_*.py"))) == 3
+    assert digits() == cold
+
+
 number = Placeholder("number")
 
 

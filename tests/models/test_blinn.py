@@ -38,7 +38,7 @@ def test_exponent_zero_is_diffuse(mu: float) -> None:
 
 
 def test_exponent_two_in_the_limit_of_grazing_light() -> None:
-    """(N.H)^2 z = z^3 / (2 (1 + x)), x along the light's horizontal: half of sqrt(1-x^2) (1-x) dx, pi/2, times cos^3 psi dpsi, 4/3."""
+    """(N.H)^2 z = z^3 / (2 (1 + x)), x along the light's horizontal: half of sqrt(1-x^2) (1-x) dx times cos^3 psi dpsi."""
     trial.assert_close(trial.wide_albedo(MODEL, Blinn(2.0), 1e-9), math.pi / 3)
 
 

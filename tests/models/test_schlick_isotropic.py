@@ -43,7 +43,7 @@ def test_normal_incidence(r: float) -> None:
     def integrand(c: float) -> float:
         return 2 * r * c / ((1 + r - (1 - r) * c) ** 2 * (r + (1 - r) * c))
 
-    trial.assert_close(trial.narrow_albedo(MODEL, Schlick(r), 1.0), quad(integrand, 0.0, 1.0)[0])
+    trial.assert_close(trial.wide_albedo(MODEL, Schlick(r), 1.0), quad(integrand, 0.0, 1.0)[0])
 
 
 @pytest.mark.parametrize("mu", [1.0, 0.5, 0.1])

@@ -130,3 +130,8 @@ def test_committed_second_ways_confirm_the_first(name):
             half_width = float(row["again_ci95_high"]) - float(row["again"])
             bound = float(row["ci95_high"]) - float(row["ours"])
             assert abs(float(row["again"]) - float(row["ours"])) <= 3 * half_width + bound
+
+
+def test_what_the_front_page_says_was_refuted_is_what_was():
+    refuted = {(name, row["model"]) for name in TABLES for row in committed(name) if row["verdict"] == str(Kind.REFUTED)}
+    assert refuted == {("table_3", "phong"), ("table_3", "stretched_blinn"), ("after_equation_36", "schlick_isotropic")}
