@@ -11,7 +11,7 @@ test: reports lint
 	$(BIN)/python -m pytest -n 2
 
 test-slow: $(READY)
-	$(BIN)/python -m pytest -n 2 -m slow
+	$(BIN)/python -m pytest -n 2 -m slow -rP
 
 bench: $(READY)
 	$(BIN)/python -m tests.benchmarks

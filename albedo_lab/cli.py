@@ -170,10 +170,8 @@ ESTIMATE = together(
     click.option(
         "--tolerance",
         type=real,
-        default=1e-5,
-        show_default=True,
         metavar="T",
-        help="Half-width of the 95 % interval that every cell must reach.",
+        help="Half-width of the 95 % interval that every cell must reach. [default: 1e-5, relative for figures above 1]",
     ),
     click.option("--method", type=click.Choice(["rqmc", "mc", "quadrature"]), default="rqmc", show_default=True),
     SEED,

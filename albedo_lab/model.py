@@ -109,7 +109,8 @@ class Model:
     pdf(p, wi, wo) -> float
         Density of `sample` per solid angle of wi above the horizon; integrates to 1 minus the rejected share.
     weight(p, wo, u1, u2) -> float
-        Optional: evaluate * cos / pdf at the sample, reduced by hand; 0 for a rejected one.
+        Optional: evaluate * cos / pdf at the sample, reduced by hand; 0 for a rejected one. For an isotropic model it may
+        count the azimuth from another axis than `sample` does.
     scale
         The constant's default: a function of p, or MAXIMUM where the source prescribes the maximum.
     paper_constant

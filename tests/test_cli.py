@@ -95,7 +95,7 @@ def test_bad_usage(folder, arguments, said):
         (["--mu", "0"], ["mu = 0.0", "(0, 1]"]),
         (["--mu", "1.5"], ["mu = 1.5", "(0, 1]"]),
         (["--mu", "1", "--theta-deg", "0"], ["mu", "theta_deg", "exactly one"]),
-        (["--phi-deg", "inf"], ["phi_deg = inf", "finite"]),
+        (["--phi-deg", "inf"], ["phi_deg = inf", "turn"]),
         (["--tolerance", "0"], ["tolerance = 0.0", "above 0"]),
         (["--tolerance", "nan"], ["tolerance = nan", "above 0"]),
         (["--tolerance", "inf"], ["tolerance = inf", "above 0"]),

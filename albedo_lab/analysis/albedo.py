@@ -7,21 +7,9 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from albedo_lab.analysis.grid import (
-    Effort,
-    Progress,
-    conclude,
-    constant,
-    effort,
-    figures,
-    grid,
-    label,
-    model_of,
-    orders,
-    parameter_columns,
-    sequence,
-    track,
-)
+from albedo_lab.analysis.constant import constant
+from albedo_lab.analysis.request import Effort, effort, grid, model_of, orders, sequence
+from albedo_lab.analysis.rows import Progress, conclude, figures, label, parameter_columns, track
 from albedo_lab.errors import BadInput
 from albedo_lab.estimate.methods import estimate
 from albedo_lab.estimate.record import Estimate, Question, exact

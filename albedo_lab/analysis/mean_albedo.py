@@ -5,19 +5,9 @@ from __future__ import annotations
 import pandas as pd
 
 from albedo_lab.analysis.albedo import shape_estimate
-from albedo_lab.analysis.grid import (
-    Progress,
-    conclude,
-    constant,
-    effort,
-    figures,
-    grid,
-    label,
-    model_of,
-    orders,
-    parameter_columns,
-    track,
-)
+from albedo_lab.analysis.constant import constant
+from albedo_lab.analysis.request import effort, grid, model_of, orders
+from albedo_lab.analysis.rows import Progress, conclude, figures, label, parameter_columns, track
 from albedo_lab.estimate.record import Question
 from albedo_lab.model import Model
 

@@ -6,20 +6,9 @@ import math
 
 import pandas as pd
 
-from albedo_lab.analysis.grid import (
-    Effort,
-    Progress,
-    conclude,
-    effort,
-    figures,
-    grid,
-    label,
-    largest_constant,
-    model_of,
-    orders,
-    parameter_columns,
-    track,
-)
+from albedo_lab.analysis.constant import largest_constant
+from albedo_lab.analysis.request import Effort, effort, grid, model_of, orders
+from albedo_lab.analysis.rows import Progress, conclude, figures, label, parameter_columns, track
 from albedo_lab.analysis.supremum import GRAZING, Supremum, supremum
 from albedo_lab.errors import BadInput
 from albedo_lab.estimate.methods import estimate

@@ -21,6 +21,7 @@ from albedo_lab.optics.maths import sincos2pi
 
 BLOCK = 512
 SUM, SQUARES, NON_FINITE, REJECTED = range(4)
+SMALLEST = 2.0**-50
 LARGEST = 1.7976931348623157e308
 
 Parameters = Placeholder("Parameters")
@@ -52,7 +53,7 @@ def weight_reduced(p, wo, u1, u2):
     return reduced_weight(p, wo, u1, u2)
 
 
-def weight_uniform_sphere(p, wo, u1, u2):
+def weight_by_cosine(p, wo, u1, u2):
     """f cos / pdf with cosine sampling, for a model without a sampler of its own."""
     s, (sp, cp) = sqrt(1.0 - u1), sincos2pi(u2)
     return pi * evaluate(p, Direction(s * cp, s * sp, sqrt(u1)), wo)
@@ -63,13 +64,19 @@ def random_uniforms(base, j, stream, keys):
     i = base + j
     u1, u2 = philox(i, stream, keys[0])
     u3, u4 = philox(i, stream, keys[1])
-    return u1, u2, u3, u4
+    return u1, u2, u3, u4, 1.0
 
 
 def sobol_uniforms(base, j, stream, keys):
-    """The point of index base + j of a scrambled Sobol sequence."""
+    """The point of index base + j of a scrambled Sobol sequence, its first coordinate squared.
+
+    u1 = 0 is the far end of a lobe, where weights change like log(u1): unsquared, the lowest cell alone would make most of the
+    error, with the law of an exponential variable, of which Student's interval over 32 scrambles holds the mean in 91 to 92 %
+    only. A lobe of n = 0 ends at the cosine u1, which a dot product does not tell from 0 below 2^-53: hence the floor.
+    """
     i = base + j
-    return sobol0(i, keys[0]), sobol1(i, keys[1]), sobol2(base, j, keys[2]), sobol3(base, j, keys[3])
+    v = sobol0(i, keys[0])
+    return v * v + SMALLEST, sobol1(i, keys[1]), sobol2(base, j, keys[2]), sobol3(base, j, keys[3]), 2.0 * v
 
 
 def fixed_incidence(direction, u3, u4):
@@ -84,11 +91,6 @@ def every_incidence(direction, u3, u4):
     return Direction(s * cp, s * sp, mu), 2.0 * mu
 
 
-def every_elevation(direction, u3, u4):
-    """The same for an isotropic model, whose albedo does not depend on the azimuth."""
-    return Direction(sqrt((1.0 - u3) * (1.0 + u3)), 0.0, u3), 2.0 * u3
-
-
 def average_weights(first, blocks, stream, keys, values, direction, moments):
     """Adds `blocks` blocks from sample number `first` to moments: sum, sum of squared deviations, non-finite, rejected."""
     p = Parameters(*values)
@@ -100,9 +102,9 @@ def average_weights(first, blocks, stream, keys, values, direction, moments):
     for b in range(blocks):
         base = np.uint32(first + b * BLOCK)
         for j in range(BLOCK):
-            u1, u2, u3, u4 = uniforms(base, np.uint32(j), stream, keys)
+            u1, u2, u3, u4, stretch = uniforms(base, np.uint32(j), stream, keys)
             wo, factor = incidence(direction, u3, u4)
-            buffer[j] = factor * weight(p, wo, u1, u2)
+            buffer[j] = stretch * factor * weight(p, wo, u1, u2)
         for j in range(BLOCK):
             non_finite += not abs(buffer[j]) <= LARGEST
             rejected += buffer[j] == 0.0
@@ -132,7 +134,7 @@ def pairwise(buffer):
 def weight_of(model: Model, order: str, generic: bool = False) -> Callable[..., Any]:
     """The weight that a kernel averages: the model's own reduction, or its contract, or cosine sampling."""
     if model.sample is None:
-        return weight_uniform_sphere
+        return weight_by_cosine
     if order == "wo":
         return weight_over_wo
     return weight_over_wi if model.weight is None or generic else weight_reduced

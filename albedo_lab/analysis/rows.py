@@ -1,0 +1,60 @@
+"""Rows of a table: what stands in them, in which order, and when a figure is good enough to stand there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from albedo_lab.errors import Inconclusive
+from albedo_lab.estimate.record import Estimate, Tolerance
+from albedo_lab.model import Model
+
+Progress = Callable[[int, int], None]
+
+
+def parameter_columns(model: Model, p: Any, quantity: str) -> dict[str, float]:
+    """A column per parameter; one that bears the quantity's name, as Lambert's albedo does, is called `<name>_parameter`."""
+    return {f"{name}_parameter" if name == quantity else name: value for name, value in model.columns(p).items()}
+
+
+def figures(quantity: str, e: Estimate) -> dict[str, Any]:
+    """The columns of a quantity, in the order that every table has."""
+    return {
+        quantity: e.value,
+        "standard_error": e.standard_error,
+        "ci95_low": e.low,
+        "ci95_high": e.high,
+        "samples": e.samples,
+        "method": e.method,
+        "seed": e.seed,
+        "non_finite": e.non_finite,
+    }
+
+
+def conclude(e: Estimate, tolerance: Tolerance, cell: str) -> Estimate:
+    """The estimate, when it is as narrow as asked; one that holds non-finite weights is a finding and passes as well.
+
+    Raises Inconclusive.
+    """
+    if e.reaches(tolerance) or e.non_finite or not math.isfinite(e.value):
+        return e
+    raise Inconclusive(
+        f"tolerance = {tolerance.at(e.value):g}: not reached within the budget at {cell}: "
+        f"half-width {e.half_width:.2g} about {e.value:.6g} after {e.samples} evaluations"
+    )
+
+
+def label(model: Model, row: Mapping[str, Any]) -> str:
+    """A cell in words, for a message."""
+    return ", ".join([model.name, *(f"{name} = {value:g}" for name, value in row.items() if isinstance(value, int | float))])
+
+
+def track(cells: Sequence[Any], progress: Progress | None) -> Iterator[Any]:
+    """The cells one by one, with progress told."""
+    for done, cell in enumerate(cells):
+        if progress is not None:
+            progress(done, len(cells))
+        yield cell
+    if progress is not None:
+        progress(len(cells), len(cells))
