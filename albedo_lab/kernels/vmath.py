@@ -19,8 +19,11 @@ AVX-512 (Zen 4). Without a fused multiply-add in hardware `fma` calls libm: righ
 
 What was decided by measuring, on that machine:
 
-- No `nnan` and `ninf`: they speed up log and log1p by 3 % and the others by nothing, change samples of GGX and Phong by
-  -25 to +14 % with no trend, and make every NaN and infinity undefined. `reassoc` would cancel the rounding steps.
+- No `nnan` and `ninf`: they speed up log and log1p by 3 %, the others by nothing, samples of GGX and Phong by 3 to 6 %,
+  and make every NaN and infinity undefined. `reassoc` would cancel the rounding steps.
+- No `contract` and `arcp`, though samples run 2 to 10 % faster with them: which products LLVM fuses and which quotients it
+  turns into products depends on what else the process has compiled, and the last bits of a result with it. The polynomials
+  here say themselves where they fuse.
 - pow keeps the logarithm in two doubles. exp(y * log(x)) takes 2.3 ns and errs by up to 1 + 2.2 |y log x| ulp, which
   is 1300 at the ends of the range. In a Phong sample, which has other work, the difference is at most 6 %.
 - Subnormal arguments cost log 0.15 and pow 0.3 ns, subnormal results cost exp 0.05 ns: not flushed.
@@ -38,12 +41,8 @@ from numba.extending import intrinsic
 __all__ = ["FLAGS", "INLINE", "exp", "expm1", "fma", "from_bits", "log", "log1p", "pow", "sincos2pi", "to_bits"]
 
 # A set, because numba takes no frozenset. forceinline: LLVM alone leaves calls, and a call ends vectorisation.
-FLAGS = {"nsz", "arcp", "contract"}
+FLAGS = {"nsz"}
 INLINE: dict[str, Any] = {"fastmath": FLAGS, "error_model": "numpy", "forceinline": True}
-
-# For error-free sums and products. `contract` may fuse a product in one of its uses and not in another, and the error
-# computed for it is then that of a number which no longer exists. LLVM 22 happens not to; nothing keeps it from it.
-_EXACT: dict[str, Any] = {"fastmath": {"nsz"}, "error_model": "numpy", "forceinline": True}
 
 # Adding 1.5 * 2^52 rounds to an integer, ties to even, and leaves that integer in the low bits: for |x| < 2^51.
 ROUND = 6755399441055744.0
@@ -102,11 +101,11 @@ def _exp_tail(r):
     """(exp(r) - 1 - r) / r² on |r| <= log(2)/2; error 2.9e-19 of exp(r)."""
     r2 = r * r
     r4 = r2 * r2
-    a = (0.5 + 0.1666666666666667 * r) + r2 * (0.04166666666666667 + 0.008333333333326141 * r)
-    b = 0.0013888888888883752 + 0.00019841269874800493 * r
-    c = 2.4801587325533363e-05 + 2.7557255425746435e-06 * r
-    d = (2.7557273661348637e-07 + 2.510520637395701e-08 * r) + r2 * 2.0914679376583935e-09
-    return a + r4 * ((b + r2 * c) + r4 * d)
+    a = fma(r2, fma(0.008333333333326141, r, 0.04166666666666667), fma(0.1666666666666667, r, 0.5))
+    b = fma(0.00019841269874800493, r, 0.0013888888888883752)
+    c = fma(2.7557255425746435e-06, r, 2.4801587325533363e-05)
+    d = fma(r2, 2.0914679376583935e-09, fma(2.510520637395701e-08, r, 2.7557273661348637e-07))
+    return fma(r4, fma(r4, d, fma(r2, c, b)), a)
 
 
 @njit(**INLINE)
@@ -117,7 +116,7 @@ def _scaled(q, t):
     # 2^n in two factors, because a single double ends at 2^1023 and 2^-1022; the shifts push ROUND_BITS out
     a = from_bits((h << 52) + ONE_BITS)
     b = from_bits(((i - h) << 52) + ONE_BITS)
-    return (a + a * q) * b
+    return fma(a, q, a) * b
 
 
 @njit(**INLINE)
@@ -126,11 +125,11 @@ def exp(x):
     # Clamped from below before the reduction and from above after it: with both bounds on one value, and a NaN to let
     # through, LLVM finds no min and max. Above, r is large and positive, and so is its polynomial: the result is inf.
     x = -746.0 if x < -746.0 else x
-    t = x * LOG2_E + ROUND
+    t = fma(x, LOG2_E, ROUND)
     t = ROUND + 1025.0 if t > ROUND + 1025.0 else t
     n = t - ROUND
-    r = (x - n * LN2_HIGH) - n * LN2_LOW
-    return _scaled(r + r * r * _exp_tail(r), t)
+    r = fma(-n, LN2_LOW, fma(-n, LN2_HIGH, x))
+    return _scaled(fma(r * r, _exp_tail(r), r), t)
 
 
 @njit(**INLINE)
@@ -138,14 +137,14 @@ def expm1(x):
     """e^x - 1, accurate where it is small."""
     x = 710.0 if x > 710.0 else x
     x = -100.0 if x < -100.0 else x
-    t = x * LOG2_E + ROUND
+    t = fma(x, LOG2_E, ROUND)
     n = t - ROUND
-    a = x - n * LN2_HIGH
-    r = a - n * LN2_LOW
-    r_low = (a - r) - n * LN2_LOW  # half an ulp of r would be one of the result where 2^n r cancels much of 2^n - 1
-    q = r + (r * r * _exp_tail(r) + r_low)
+    a = fma(-n, LN2_HIGH, x)
+    r = fma(-n, LN2_LOW, a)
+    r_low = fma(-n, LN2_LOW, a - r)  # half an ulp of r would be one of the result where 2^n r cancels much of 2^n - 1
+    q = r + fma(r * r, _exp_tail(r), r_low)
     half = from_bits((to_bits(t) << 52) + (ONE_BITS - (1 << 52)))  # 2^(n-1), because 2^1024 is not a double
-    return 2.0 * (half * q + (half - 0.5))
+    return 2.0 * fma(half, q, half - 0.5)
 
 
 @njit(**INLINE)
@@ -170,9 +169,9 @@ def _split_any(x):
 def _log_tail(z):
     """(log((1+s)/(1-s)) - 2s - 2/3 s³) / s⁵, z = s² <= 0.02944; error 1.0e-20 of the logarithm."""
     z2 = z * z
-    a = (0.4 + 0.28571428571429364 * z) + z2 * (0.22222222221656232 + 0.18181818335314404 * z)
-    b = (0.15384594970895457 + 0.13334804238225345 * z) + z2 * (0.11706248540922386 + 0.11723051028097753 * z)
-    return a + z2 * z2 * b
+    a = fma(z2, fma(0.18181818335314404, z, 0.22222222221656232), fma(0.28571428571429364, z, 0.4))
+    b = fma(z2, fma(0.11723051028097753, z, 0.11706248540922386), fma(0.13334804238225345, z, 0.15384594970895457))
+    return fma(z2 * z2, b, a)
 
 
 @njit(**INLINE)
@@ -181,7 +180,8 @@ def _log_reduced(f, n):
     s = f / (2.0 + f)
     z = s * s
     half = 0.5 * f * f
-    return n * LN2_HIGH + (f - (half - (s * (half + z * (TWO_THIRDS_HIGH + z * _log_tail(z))) + n * LN2_LOW)))
+    small = fma(s, fma(z, fma(z, _log_tail(z), TWO_THIRDS_HIGH), half), n * LN2_LOW)
+    return fma(n, LN2_HIGH, f - (half - small))
 
 
 @njit(**INLINE)
@@ -197,13 +197,13 @@ def log1p(x):
     u = 1.0 + x
     lost = x - (u - 1.0)  # exact while u < 2^53
     f, n = _split(u)
-    f = f + lost * from_bits(ONE_BITS - (to_bits(n + ROUND) << 52)) if u < 1e15 else f  # lost 2^-n; f = x where n = 0
+    f = fma(lost, from_bits(ONE_BITS - (to_bits(n + ROUND) << 52)), f) if u < 1e15 else f  # lost 2^-n; f = x where n = 0
     n = n if x < INF else x
     n = n if x > -1.0 else (-INF if x == -1.0 else NAN)
     return _log_reduced(f, n)
 
 
-@njit(**_EXACT)
+@njit(**INLINE)
 def _log_two(f, n):
     """log((1 + f) 2^n) as high + low, error 1.2e-19 of it; low is meaningless where high is not finite."""
     d = 2.0 + f
@@ -229,7 +229,7 @@ def _log_two(f, n):
     return high, (total_low + high_low) + (v_low + fma(n, LN2_LOW, s_low + s_low))
 
 
-@njit(**_EXACT)
+@njit(**INLINE)
 def _exp_two(x, x_low):
     """exp(x + x_low); as exp, with one addition more."""
     x = -746.0 if x < -746.0 else x
@@ -240,7 +240,7 @@ def _exp_two(x, x_low):
     return _scaled(fma(r * r, _exp_tail(r), r), t)
 
 
-@njit(**_EXACT)
+@njit(**INLINE)
 def pow(x, y):
     """x^y for x >= 0; NaN for x < 0. x^0 = 1 and 1^y = 1 for any x and y, NaN included, as in C."""
     f, n = _split_any(x)
@@ -256,19 +256,19 @@ def pow(x, y):
 @njit(**INLINE)
 def sincos2pi(u):
     """(sin 2πu, cos 2πu); u in turns, so that its reduction to an eighth is exact."""
-    t = u * 4.0 + ROUND
-    r = u - (t - ROUND) * 0.25
+    t = fma(u, 4.0, ROUND)
+    r = fma(t - ROUND, -0.25, u)
     z = r * r
     z2 = z * z
     z4 = z2 * z2
     # sin(2πr) = r (2π + z S(z)), error 1.3e-17 of it; 2π in two parts, or its rounding would cost half an ulp
-    s = (-41.341702240399755 + 81.6052492760517 * z) + z2 * (-76.70585973562093 + 42.05868918088512 * z)
-    s = s + z4 * (-15.094054182079999 + 3.78643334956545 * z)
-    s = fma(r, TWO_PI_HIGH, r * (TWO_PI_LOW + z * s))  # left to `contract`, LLVM may fuse the wrong product
+    s = fma(z2, fma(42.05868918088512, z, -76.70585973562093), fma(81.6052492760517, z, -41.341702240399755))
+    s = fma(z4, fma(3.78643334956545, z, -15.094054182079999), s)
+    s = fma(r, TWO_PI_HIGH, r * fma(z, s, TWO_PI_LOW))
     # cos(2πr) = 1 + z C(z), error 1.8e-17
-    c = (-19.739208802178716 + 64.93939402266824 * z) + z2 * (-85.4568172066438 + 60.24464135270201 * z)
-    c = c + z4 * ((-26.426253275854723 + 7.903206911569678 * z) + z2 * -1.6990343940660637)
-    c = 1.0 + z * c
+    c = fma(z2, fma(60.24464135270201, z, -85.4568172066438), fma(64.93939402266824, z, -19.739208802178716))
+    c = fma(z4, fma(z2, -1.6990343940660637, fma(7.903206911569678, z, -26.426253275854723)), c)
+    c = fma(z, c, 1.0)
     quarter = to_bits(t)
     odd = (quarter & 1) != 0
     sine = c if odd else s
