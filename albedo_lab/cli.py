@@ -173,7 +173,7 @@ ESTIMATE = together(
         metavar="T",
         help="Half-width of the 95 % interval that every cell must reach. [default: 1e-5, relative for figures above 1]",
     ),
-    click.option("--method", type=click.Choice(["rqmc", "mc", "quadrature"]), default="rqmc", show_default=True),
+    click.option("--method", type=click.Choice(["rqmc", "mc", "quadrature"]), help="[default: rqmc; for normalise quadrature]"),
     SEED,
     THREADS,
     LAYOUT,
@@ -188,10 +188,11 @@ def answer(
     output: Path | None,
     **options: Any,
 ) -> None:
-    """Asks an analysis about a model and prints what it says."""
+    """Asks an analysis about a model and prints what it says; an option that was not given has the analysis' own default."""
     model.bind({name: values[0] for name, values in parameters.items() if name != "scale"})  # no option is a parameter
     with progress_bar() as progress:
-        frame = question(model, progress=progress, **options, **parameters)
+        given = {name: value for name, value in options.items() if value is not None}
+        frame = question(model, progress=progress, **given, **parameters)
     emit(format_table(frame, kind), output)
 
 

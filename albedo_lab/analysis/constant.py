@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from albedo_lab.analysis.supremum import supremum
-from albedo_lab.estimate.record import NORMAL_975, Estimate, exact
+from albedo_lab.estimate.record import NORMAL_975, Estimate, bounded, exact
 from albedo_lab.model import Maximum, Model
 
 
@@ -22,7 +22,9 @@ def constant(model: Model, p: Any, given: float | None) -> Estimate:
 def largest_constant(largest_albedo: Estimate) -> Estimate:
     """The reciprocal of the largest albedo of the shape; 0 where that is unbounded, infinite where it is 0."""
     if math.isinf(largest_albedo.value):
-        return exact(0.0, largest_albedo.method)
+        return bounded(0.0, 0.0, largest_albedo.samples, largest_albedo.method)
+    if math.isnan(largest_albedo.value):
+        return largest_albedo
     if largest_albedo.value <= 0.0:
         return exact(math.inf, largest_albedo.method)
     value = 1.0 / largest_albedo.value

@@ -20,7 +20,7 @@ def normalise(
     model: Model | str,
     *,
     tolerance: float | None = None,
-    method: str = "rqmc",
+    method: str = "quadrature",
     seed: int = 0,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -29,15 +29,16 @@ def normalise(
     """The maximum of `scale`: the reciprocal of the supremum of the albedo over all directions of incidence, mu -> 0 included.
 
     Options and errors are those of `albedo`. Quadrature finds the place of the supremum and bounds what the place's error can
-    hide; the method asked for measures the albedo there; the interval holds both errors.
+    hide; the method asked for measures the albedo there; the interval holds both errors. The default is quadrature here: it has
+    to search anyway, and a supremum wants a bound rather than a chance of 95 %.
 
     Returns
     -------
     DataFrame
         One row per cell: model, parameters, constant, standard_error, ci95_low, ci95_high, samples, method, seed, non_finite,
         peak_theta_deg (90 stands for the limit), paper_constant (NaN where the source prints none), behaviour ("bounded", or
-        "diverges": the albedo is unbounded at grazing angles, and no constant but 0 keeps the energy balance), order, and
-        peak_phi_deg for anisotropic models.
+        "diverges": the albedo is unbounded at grazing angles, and no constant but 0 keeps the energy balance; "undefined": it is
+        NaN somewhere), order, and peak_phi_deg for anisotropic models.
 
     Examples
     --------
@@ -71,7 +72,7 @@ def normalise(
 def _measured(model: Model, p: object, order: str, peak: Supremum, want: Effort) -> Estimate:
     """The constant, from an estimate of the albedo at its peak by the method asked for."""
     first = largest_constant(peak.value)
-    if peak.behaviour == "diverges" or want.method == "quadrature" or math.isinf(first.value):
+    if peak.behaviour != "bounded" or want.method == "quadrature" or math.isinf(first.value):
         return first
     mu = peak.mu or GRAZING[-1]
     spare = peak.location_error if peak.mu else peak.value.half_width

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from typing import Any
 
@@ -39,7 +39,7 @@ class Supremum:
     """The largest albedo of a shape: a bounded figure, and the direction (mu, phi) that has it; mu = 0 is the limit.
 
     `location_error` is the part of the bound that comes from not knowing the place exactly. Where the albedo diverges at
-    grazing angles, `behaviour` is "diverges" and the value infinite.
+    grazing angles, `behaviour` is "diverges" and the value infinite; where it is NaN anywhere, "undefined" and the value NaN.
     """
 
     value: Estimate
@@ -56,12 +56,18 @@ def supremum(model: Model, p: Any, order: str = "wi") -> Supremum:
     limit = grazing_limit(model, p, phi, order)
     if math.isinf(limit.value):
         return Supremum(limit, 0.0, phi, 0.0, "diverges")
+    samples = limit.samples
 
     def at(t: float, azimuth: float, relative: float) -> Estimate:
-        return quadrature(Question(model, p, 1.0 / math.cosh(t), azimuth, order), Tolerance(0.0, relative))
+        nonlocal samples
+        found = quadrature(Question(model, p, 1.0 / math.cosh(t), azimuth, order), Tolerance(0.0, relative))
+        samples += found.samples
+        return found
 
     coarse = np.array([at(t, phi, COARSE).value for t in WALK])
     best = max(float(coarse.max()), limit.value)
+    if math.isnan(best):
+        return Supremum(bounded(math.nan, math.nan, samples, "quadrature"), 1.0, phi, 0.0, "undefined")
     found: list[tuple[float, float, float, float]] = []
     for i, value in enumerate(coarse):
         neighbours = coarse[max(i - 1, 0) : i + 2]
@@ -69,7 +75,7 @@ def supremum(model: Model, p: Any, order: str = "wi") -> Supremum:
             low, high = WALK[max(i - 1, 0)], WALK[min(i + 1, len(WALK) - 1)]
             found.append(_maximum(partial(at, azimuth=phi, relative=FINE), low, high))
     if not found or limit.value > max(peak for _, peak, _, _ in found):
-        return Supremum(limit, 0.0, phi, 0.0, "bounded")
+        return Supremum(replace(limit, samples=samples), 0.0, phi, 0.0, "bounded")
     t, peak, error, bound = max(found, key=lambda candidate: candidate[1])
     if not model.isotropic(p):
         for _ in range(3):
@@ -80,7 +86,7 @@ def supremum(model: Model, p: Any, order: str = "wi") -> Supremum:
     at_normal = at(0.0, phi, FINE).value
     if at_normal >= peak - error - bound:
         t, peak = 0.0, max(peak, at_normal)
-    return Supremum(bounded(peak, error + bound, 0, "quadrature"), 1.0 / math.cosh(t), phi, error, "bounded")
+    return Supremum(bounded(peak, error + bound, samples, "quadrature"), 1.0 / math.cosh(t), phi, error, "bounded")
 
 
 def grazing_limit(model: Model, p: Any, phi: float, order: str) -> Estimate:
@@ -88,11 +94,12 @@ def grazing_limit(model: Model, p: Any, phi: float, order: str) -> Estimate:
     a = [quadrature(Question(model, p, mu, phi, order), Tolerance(0.0, COARSE)) for mu in GRAZING]
     before, after = a[1].value - a[0].value, a[2].value - a[1].value
     noise = sum(e.half_width for e in a)
+    samples = sum(e.samples for e in a)
     if after > noise and after > STILL_GROWING * before:
-        return bounded(math.inf, 0.0, 0, "quadrature")
+        return bounded(math.inf, 0.0, samples, "quadrature")
     ratio = min(abs(after / before), 0.9) if abs(before) > noise else 0.0
     rest = after * ratio / (1.0 - ratio)
-    return bounded(a[2].value + rest, a[2].half_width + abs(after) + abs(rest), 0, "quadrature")
+    return bounded(a[2].value + rest, a[2].half_width + abs(after) + abs(rest), samples, "quadrature")
 
 
 def _maximum(a: Callable[[float], Estimate], low: float, high: float) -> tuple[float, float, float, float]:

@@ -32,7 +32,7 @@ def test_the_constant_lies_within_its_interval_of_the_oracle(cell: dict[str, Any
 def test_rqmc_measures_what_quadrature_finds(name: str, values: dict[str, float]) -> None:
     """5 standard errors; the place of the peak comes from the same search."""
     exact = normalise(name, method="quadrature", **values)
-    found = normalise(name, tolerance=1e-5, **values)
+    found = normalise(name, tolerance=1e-5, method="rqmc", **values)
     assert abs(found.constant[0] - exact.constant[0]) <= 5.0 * found.standard_error[0]
     assert found.ci95_high[0] - found.ci95_low[0] <= 2e-5
     assert found.peak_theta_deg[0] == exact.peak_theta_deg[0]
@@ -76,6 +76,13 @@ def test_an_anisotropic_peak_is_searched_over_both_angles() -> None:
 
 def test_a_black_model_may_carry_any_constant() -> None:
     assert normalise("lambert", albedo=0).constant[0] == math.inf
+
+
+def test_a_model_that_is_nan_somewhere_has_no_constant_and_says_so() -> None:
+    lambert = find("lambert")
+    table = normalise(replace(lambert, evaluate=lambda p, wi, wo: math.nan if wo.z < 0.5 and wi.x > 0.9 else 1.0))
+    assert math.isnan(table.constant[0])
+    assert table.behaviour[0] == "undefined"
 
 
 def test_grazing_limits() -> None:
