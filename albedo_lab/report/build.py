@@ -44,9 +44,13 @@ def write_reports(
 ) -> None:
     """Recomputes the documents of those names, all of them by default, and writes their reports under `directory`.
 
-    Nothing is written before everything is computed. Raises BadInput for an unknown name.
+    No file is written before everything is computed. Raises BadInput for an unknown name or a folder that cannot be made.
     """
     audited = [find_paper(name) for name in dict.fromkeys(papers or paper_names())]
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadInput("output", str(directory), f"must be a folder that can be written ({error.strerror})") from None
     step = stepper(sum(len(table.cells) for paper in audited for table in paper.tables), progress)
     files: dict[str, str | bytes] = {}
     sections = []
