@@ -16,6 +16,8 @@ from albedo_lab.estimate.record import Estimate, Question, exact
 from albedo_lab.model import Model
 
 Angles = float | Sequence[float] | None
+SMALLEST_MU = 1e-20
+"""Far below the last angle that is a double (2e-16), far above where squares and quotients leave the range of doubles."""
 
 
 def albedo(
@@ -40,7 +42,7 @@ def albedo(
     model
         A Model, or a name of the catalogue.
     mu, theta, theta_deg
-        The direction of incidence, by exactly one of its cosine in (0, 1], its angle from the normal in radians in [0, pi/2), or
+        The direction of incidence, by exactly one of its cosine in [1e-20, 1], its angle from the normal in radians in [0, pi/2), or
         in degrees in [0, 90); one value or several. Near grazing only mu keeps its digits.
     phi, phi_deg
         Its azimuth in radians or degrees, 0 by default; one value or several. Reported where the model is anisotropic.
@@ -116,7 +118,7 @@ def _elevations(mu: Angles, theta: Angles, theta_deg: Angles) -> list[tuple[floa
     for value in sequence(name, values):
         number = _number(value)
         if name == "mu":
-            inside, domain = 0.0 < number <= 1.0, "must be in (0, 1]"
+            inside, domain = SMALLEST_MU <= number <= 1.0, f"must be in [{SMALLEST_MU:g}, 1]"
             pair = (
                 number,
                 math.degrees(math.atan2(math.sqrt((1.0 - number) * (1.0 + number)), number)) if inside else 0.0,

@@ -42,8 +42,8 @@ def mean_by_quadrature(question: Question, tolerance: Tolerance) -> Estimate:
     panels = [panel(a, b) for a, b in ((0.0, 1.0), (1.0, 4.0), (4.0, LAST))]
     heapq.heapify(panels)
     while len(panels) < MOST_PANELS:
-        if -sum(p[0] for p in panels) <= 0.5 * tolerance.at(sum(p[3] for p in panels)):
-            break
+        if not -sum(p[0] for p in panels) > 0.5 * tolerance.at(sum(p[3] for p in panels)):
+            break  # narrow enough, or NaN
         _, a, b, _, _ = heapq.heappop(panels)
         middle = 0.5 * (a + b)
         for half in (panel(a, middle), panel(middle, b)):

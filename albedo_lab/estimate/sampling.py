@@ -52,7 +52,7 @@ def rqmc(question: Question, tolerance: Tolerance, seed: int, threads: int, budg
             non_finite += int(moments[NON_FINITE])
         points = target
         means = sums / points
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore", over="ignore"):
             value, error = float(np.mean(means)), float(np.std(means, ddof=1)) / math.sqrt(REPLICATES)
         half_width = STUDENT_975 * error + _blind(question, value, points * REPLICATES)
         estimate = Estimate(value, error, value - half_width, value + half_width, points * REPLICATES, "rqmc", seed, non_finite)
