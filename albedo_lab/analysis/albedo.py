@@ -42,8 +42,8 @@ def albedo(
     model
         A Model, or a name of the catalogue.
     mu, theta, theta_deg
-        The direction of incidence, by exactly one of its cosine in [1e-20, 1], its angle from the normal in radians in [0, pi/2), or
-        in degrees in [0, 90); one value or several. Near grazing only mu keeps its digits.
+        The direction of incidence, by exactly one of its cosine in [1e-20, 1], its angle from the normal in radians in
+        [0, pi/2), or in degrees in [0, 90); one value or several. Near grazing only mu keeps its digits.
     phi, phi_deg
         Its azimuth in radians or degrees, 0 by default; one value or several. Reported where the model is anisotropic.
     tolerance
