@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import nan
-
 from albedo_lab.model import Model
 from albedo_lab.models.phong import EXPONENT, MIRROR_LOBE, Phong, largest_constant, pdf, sample
 from albedo_lab.optics.frame import Direction, cosine_power, mirror_of
@@ -24,7 +22,6 @@ MODEL = Model(
     pdf=pdf,
     scale=largest_constant,
     scale_symbol="c_n",
-    paper_constant=lambda p: nan,
     smooth_in=MIRROR_LOBE,
     reciprocal=False,
     source=neumann1999(
