@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from albedo_lab.estimate.record import NORMAL_975, Estimate, Question, Tolerance
 from albedo_lab.kernels.sampling import BLOCK, NON_FINITE, SQUARES, SUM, sampling_kernel
 
-REPLICATES = 32
-STUDENT_975 = 2.0395134463964077
+REPLICATES = 64
+STUDENT_975 = 1.998340542520741
 """0.975 quantile of Student's t with REPLICATES - 1 degrees of freedom."""
-FIRST_POINTS = 1 << 10
+FIRST_POINTS = 1 << 9
 FIRST_SAMPLES = 1 << 16
 CHUNK = 1 << 18
 BUDGET = 1 << 32
@@ -36,7 +36,7 @@ missed (one time in 40 it is -ln 0.025 = 3.7 hits wide), so the interval is wide
 
 
 def rqmc(question: Question, tolerance: Tolerance, seed: int, threads: int, budget: int = BUDGET) -> Estimate:
-    """Scrambled Sobol points, doubled until Student's interval over 32 scrambles is narrow enough, or the budget is spent."""
+    """Scrambled Sobol points, doubled until Student's interval over 64 scrambles is narrow enough, or the budget is spent."""
     kernel = sampling_kernel(question.model, question.mu is None, True, question.order)
     sums = np.zeros(REPLICATES)
     non_finite = 0

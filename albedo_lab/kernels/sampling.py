@@ -71,7 +71,7 @@ def sobol_uniforms(base, j, stream, keys):
     """The point of index base + j of a scrambled Sobol sequence, its first coordinate squared.
 
     u1 = 0 is the far end of a lobe, where weights change like log(u1): unsquared, the lowest cell alone would make most of the
-    error, with the law of an exponential variable, of which Student's interval over 32 scrambles holds the mean in 91 to 92 %
+    error, with the law of an exponential variable, of which Student's interval over 32 scrambles held the mean in 91 to 92 %
     only. A lobe of n = 0 ends at the cosine u1, which a dot product does not tell from 0 below 2^-53: hence the floor.
     """
     i = base + j
