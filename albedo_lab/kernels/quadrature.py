@@ -3,7 +3,8 @@
 A direction is written by its slope rho (tangent of its angle from the declared axis) and its azimuth psi from the plane of
 incidence. The horizon and the circle of equal cosines are known in closed form along every azimuth, so each radial integral
 runs over smooth pieces only. In azimuth, a quarter turn on both sides of the plane normal to the plane of incidence is
-stretched by a hyperbolic sine, since near grazing the integrand changes within an azimuth of the order of mu.
+stretched by a hyperbolic sine, since near grazing the integrand changes within an azimuth of the order of mu, and the circle of
+equal cosines crosses a lobe within one of the order of mu times its width.
 
 Both integrals are adaptive Gauss-Kronrod (15, 31), worst panel first. The bound is the sum of |K31 - G15| over the panels of the
 outer integral plus the same of every inner one, integrated along, taken twice: that is G15's error, far above the K31 value's own
@@ -31,6 +32,8 @@ INNER_PANELS = 64
 OUTER_PANELS = 128
 NOISE = 2.0**-50
 EPSILON = 2.0**-52
+NARROW = 50.0
+"""From this exponent on, nothing of a lobe (2^-50 at 60 degrees) is left where the circle of equal cosines enters it."""
 SAFETY = 2.0
 OUTER_SHARE = 0.3
 INNER_SHARE = 0.1
@@ -230,12 +233,17 @@ def outer_panel(a, b, stretch, scale, tolerance, work, lanes, p, wo, mu, si, cpo
     return kronrod * half, abs(kronrod - gauss) * half, inner * half, used
 
 
+def lobe_width(p):
+    """The slope at which a lobe has fallen off to 1/e, at most 1."""
+    ex, ey = ellipse(p)
+    return min(1.0, slope(1.0, exponent(p))[0] * min(ex, ey))
+
+
 def rounding(p, mu):
     """Relative error that the rounding of directions leaves in a lobe of this width."""
     if AXIS == NORMAL:
         return EPSILON
-    ex, ey = ellipse(p)
-    width = min(1.0, slope(1.0, exponent(p))[0] * min(ex, ey))
+    width = lobe_width(p)
     return EPSILON / width / (max(mu, width) if AXIS == HALF else 1.0)
 
 
@@ -248,14 +256,14 @@ def integrate(values, mu, phi, symmetric, tolerance, relative, answer):
     si = sqrt((1.0 - mu) * (1.0 + mu))
     cpo, spo = cos(phi), sin(phi)
     wo = Direction(si * cpo, si * spo, mu)
-    scale = max(mu / si, 1e-12) if si > 0.0 else 1e6
+    scale = max(mu / si * (lobe_width(p) if KINK else 1.0), 1e-12) if si > 0.0 else 1e6
     stretch = asinh(0.5 * pi / scale)
     work = np.empty((INNER_PANELS, 6))
     lanes = np.empty(LANES)
     panels = np.empty((OUTER_PANELS, 5))
     panels[0, 0], panels[0, 1] = 0.0, 1.0
     count = 1
-    if KINK and (AXIS == MIRROR or AXIS == RETRO) and mu < si:
+    if KINK and (AXIS == MIRROR or AXIS == RETRO) and mu < si and exponent(p) < NARROW:
         # the circle of equal cosines enters the lobe's hemisphere where the azimuth's cosine is mu / si
         enters = asinh(atan2(mu, sqrt((si - mu) * (si + mu))) / scale) / stretch
         panels[0, 1], panels[1, 0], panels[1, 1] = enters, enters, 1.0
