@@ -9,8 +9,9 @@ equal cosines crosses a lobe within one of the order of mu times its width.
 Both integrals are adaptive Gauss-Kronrod (15, 31), worst panel first. The bound is the sum of |K31 - G15| over the panels of the
 outer integral plus the same of every inner one, integrated along, taken twice: that is G15's error, far above the K31 value's own
 unless both rules miss the same feature. To it comes a rounding term: a direction's components err by 2^-53, which a narrow lobe
-divides by its width, and a half-vector near grazing by (wo.h) once more. The rule is a
-long one because most pieces are smooth enough to be done with it at once, and because its nodes fill SIMD lanes.
+divides by its width, and a half-vector near grazing by (wo.h) once more. The rule is a long one because most pieces are smooth
+enough to be done with it at once, and because its nodes fill SIMD lanes. (QUADPACK's sharper estimate, (200 d)^1.5, was tried: it
+left 4 of 540 reference cells outside their bound, one by 140 times.)
 """
 
 from __future__ import annotations
@@ -40,6 +41,7 @@ INNER_SHARE = 0.1
 NORMAL, MIRROR, RETRO, HALF = (int(axis) for axis in Axis)
 
 Parameters = Placeholder("Parameters")
+evaluate = Placeholder("evaluate")
 f = Placeholder("f")
 slope = Placeholder("slope")
 coordinate = Placeholder("coordinate")
@@ -58,9 +60,6 @@ def f_for_viewer(p, moving, fixed):
 def f_for_light(p, moving, fixed):
     """Integrated over the viewer."""
     return evaluate(p, fixed, moving)
-
-
-evaluate = Placeholder("evaluate")
 
 
 def horizon(c, mu, si):
