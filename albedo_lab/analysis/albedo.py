@@ -9,7 +9,7 @@ import pandas as pd
 
 from albedo_lab.analysis.constant import constant
 from albedo_lab.analysis.request import Effort, effort, grid, model_of, orders, sequence
-from albedo_lab.analysis.rows import Progress, conclude, figures, label, parameter_columns, track
+from albedo_lab.analysis.rows import Progress, conclude, degrees_of, figures, label, parameter_columns, track
 from albedo_lab.errors import BadInput
 from albedo_lab.estimate.methods import estimate
 from albedo_lab.estimate.record import Estimate, Question, exact
@@ -117,21 +117,19 @@ def _elevations(mu: Angles, theta: Angles, theta_deg: Angles) -> list[tuple[floa
     found = []
     for value in sequence(name, values):
         number = _number(value)
-        if name == "mu":
-            inside, domain = SMALLEST_MU <= number <= 1.0, f"must be in [{SMALLEST_MU:g}, 1]"
-            pair = (
-                number,
-                math.degrees(math.atan2(math.sqrt((1.0 - number) * (1.0 + number)), number)) if inside else 0.0,
-            )
-        elif name == "theta":
-            inside, domain = 0.0 <= number < math.pi / 2, "must be in [0, pi/2) radians"
-            pair = (math.cos(number), math.degrees(number)) if inside else (0.0, 0.0)
-        else:
-            inside, domain = 0.0 <= number < 90.0, "must be in [0, 90) degrees"
-            pair = (math.sin(math.radians(90.0 - number)), number)
+        inside, domain = {
+            "mu": (SMALLEST_MU <= number <= 1.0, f"must be in [{SMALLEST_MU:g}, 1]"),
+            "theta": (0.0 <= number < math.pi / 2, "must be in [0, pi/2) radians"),
+            "theta_deg": (0.0 <= number < 90.0, "must be in [0, 90) degrees"),
+        }[name]
         if not inside:
             raise BadInput(name, value, domain)
-        found.append(pair)
+        if name == "mu":
+            found.append((number, degrees_of(number)))
+        elif name == "theta":
+            found.append((math.cos(number), math.degrees(number)))
+        else:
+            found.append((math.sin(math.radians(90.0 - number)), number))
     return found
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 from albedo_lab.analysis.supremum import supremum
@@ -31,13 +32,4 @@ def largest_constant(largest_albedo: Estimate) -> Estimate:
     low = 1.0 / largest_albedo.high
     high = 1.0 / largest_albedo.low if largest_albedo.low > 0.0 else math.inf
     error = (high - low) / (2.0 * NORMAL_975)
-    return Estimate(
-        value,
-        error,
-        low,
-        high,
-        largest_albedo.samples,
-        largest_albedo.method,
-        largest_albedo.seed,
-        largest_albedo.non_finite,
-    )
+    return replace(largest_albedo, value=value, standard_error=error, low=low, high=high)

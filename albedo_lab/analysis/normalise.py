@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pandas as pd
 
 from albedo_lab.analysis.constant import largest_constant
 from albedo_lab.analysis.request import Effort, effort, grid, model_of, orders
-from albedo_lab.analysis.rows import Progress, conclude, figures, label, parameter_columns, track
+from albedo_lab.analysis.rows import Progress, conclude, degrees_of, figures, label, parameter_columns, track
 from albedo_lab.analysis.supremum import GRAZING, Supremum, supremum
 from albedo_lab.errors import BadInput
 from albedo_lab.estimate.methods import estimate
@@ -57,12 +58,11 @@ def normalise(
         peak = supremum(model, p, order)
         head = parameter_columns(model, p, "constant")
         found = conclude(_measured(model, p, order, peak, want), want.tolerance, label(model, head))
-        degrees = math.degrees(math.atan2(math.sqrt((1.0 - peak.mu) * (1.0 + peak.mu)), peak.mu))
         rows.append(
             {"model": model.name}
             | head
             | figures("constant", found)
-            | {"peak_theta_deg": degrees, "paper_constant": model.paper_constant(p)}
+            | {"peak_theta_deg": degrees_of(peak.mu), "paper_constant": model.paper_constant(p)}
             | {"behaviour": peak.behaviour, "order": order}
             | ({"peak_phi_deg": math.degrees(peak.phi)} if anisotropic else {})
         )
@@ -80,14 +80,5 @@ def _measured(model: Model, p: object, order: str, peak: Supremum, want: Effort)
     question = Question(model, p, mu, peak.phi, order)
     within = Tolerance(max(0.99 * allowed - spare, 0.5 * allowed))
     at_peak = estimate(question, within, want.method, want.seed, want.threads)
-    widened = Estimate(
-        at_peak.value,
-        at_peak.standard_error,
-        at_peak.low - (spare if not peak.mu else 0.0),
-        at_peak.high + spare,
-        at_peak.samples,
-        at_peak.method,
-        at_peak.seed,
-        at_peak.non_finite,
-    )
-    return largest_constant(widened)
+    below = 0.0 if peak.mu else spare
+    return largest_constant(replace(at_peak, low=at_peak.low - below, high=at_peak.high + spare))

@@ -32,6 +32,11 @@ def figures(quantity: str, e: Estimate) -> dict[str, Any]:
     }
 
 
+def degrees_of(mu: float) -> float:
+    """The angle of a cosine, in degrees, without the digits that arccos would lose near the normal."""
+    return math.degrees(math.atan2(math.sqrt((1.0 - mu) * (1.0 + mu)), mu))
+
+
 def conclude(e: Estimate, tolerance: Tolerance, cell: str) -> Estimate:
     """The estimate, when it is as narrow as asked; one that holds non-finite weights is a finding and passes as well.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from albedo_lab.model import Model
@@ -75,7 +75,7 @@ class Estimate:
         value = self.value * scale.value
         error = math.hypot(self.standard_error * scale.value, self.value * scale.standard_error)
         width = self.half_width * abs(scale.value) + abs(self.value) * scale.half_width
-        return Estimate(value, error, value - width, value + width, self.samples, self.method, self.seed, self.non_finite)
+        return replace(self, value=value, standard_error=error, low=value - width, high=value + width)
 
 
 def bounded(value: float, bound: float, samples: int, method: str) -> Estimate:

@@ -115,7 +115,7 @@ def _run(kernel: Callable[..., Any], question: Question, jobs: list[Any], thread
 
     def work(job: Any) -> NDArray[np.float64]:
         first, count, stream, keys, _ = job
-        moments = np.zeros(4)
+        moments = np.zeros(3)
         kernel(first, count // BLOCK, np.uint32(stream), keys, values, direction, moments)
         return moments
 

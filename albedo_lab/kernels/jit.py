@@ -16,7 +16,6 @@ import inspect
 import linecache
 import os
 import sys
-import tempfile
 import textwrap
 import types
 from collections.abc import Callable, Iterator
@@ -27,6 +26,7 @@ import numba
 from numba.core.dispatcher import Dispatcher
 from numba.extending import intrinsic
 
+from albedo_lab.files import write_whole
 from albedo_lab.kernels import vmath
 from albedo_lab.kernels.vmath import FLAGS, INLINE
 
@@ -83,11 +83,7 @@ def _write_stub(filename: str, source: str) -> tuple[Path, bool]:
     try:
         if not path.exists():
             path.parent.mkdir(parents=True, exist_ok=True)
-            handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
-            with os.fdopen(handle, "w", encoding="utf-8") as stub:
-                stub.write(source)
-            os.utime(temporary, (0, 0))  # numba stamps its index with this time: equal stubs must look equal
-            os.replace(temporary, path)
+            write_whole(path, source, modified=0.0)  # numba stamps its index with this time: equal stubs must look equal
         return path, os.access(path.parent, os.W_OK)
     except OSError:
         return path, False

@@ -17,10 +17,11 @@ from albedo_lab.kernels.jit import Placeholder, specialise
 from albedo_lab.kernels.uniforms import philox, sobol0, sobol1, sobol2, sobol3
 from albedo_lab.model import Model
 from albedo_lab.optics.frame import Direction
+from albedo_lab.optics.lobes import sample_cosine
 from albedo_lab.optics.maths import sincos2pi
 
 BLOCK = 512
-SUM, SQUARES, NON_FINITE, REJECTED = range(4)
+SUM, SQUARES, NON_FINITE = range(3)
 SMALLEST = 2.0**-50
 LARGEST = 1.7976931348623157e308
 
@@ -28,7 +29,6 @@ Parameters = Placeholder("Parameters")
 evaluate = Placeholder("evaluate")
 sample = Placeholder("sample")
 pdf = Placeholder("pdf")
-reduced_weight = Placeholder("reduced_weight")
 weight = Placeholder("weight")
 uniforms = Placeholder("uniforms")
 incidence = Placeholder("incidence")
@@ -48,15 +48,9 @@ def weight_over_wo(p, wi, u1, u2):
     return w if wo.z > 0.0 else 0.0
 
 
-def weight_reduced(p, wo, u1, u2):
-    """f cos / pdf as the model reduced it by hand."""
-    return reduced_weight(p, wo, u1, u2)
-
-
 def weight_by_cosine(p, wo, u1, u2):
     """f cos / pdf with cosine sampling, for a model without a sampler of its own."""
-    s, (sp, cp) = sqrt(1.0 - u1), sincos2pi(u2)
-    return pi * evaluate(p, Direction(s * cp, s * sp, sqrt(u1)), wo)
+    return pi * evaluate(p, sample_cosine(u1, u2), wo)
 
 
 def random_uniforms(base, j, stream, keys):
@@ -92,13 +86,12 @@ def every_incidence(direction, u3, u4):
 
 
 def average_weights(first, blocks, stream, keys, values, direction, moments):
-    """Adds `blocks` blocks from sample number `first` to moments: sum, sum of squared deviations, non-finite, rejected."""
+    """Adds `blocks` blocks from sample number `first` to moments: sum, sum of squared deviations, non-finite weights."""
     p = Parameters(*values)
     buffer = np.empty(BLOCK)
     mean = 0.0
     squares = 0.0
     non_finite = 0
-    rejected = 0
     for b in range(blocks):
         base = np.uint32(first + b * BLOCK)
         for j in range(BLOCK):
@@ -107,7 +100,6 @@ def average_weights(first, blocks, stream, keys, values, direction, moments):
             buffer[j] = stretch * factor * weight(p, wo, u1, u2)
         for j in range(BLOCK):
             non_finite += not abs(buffer[j]) <= LARGEST
-            rejected += buffer[j] == 0.0
         total = pairwise(buffer.copy())
         block_mean = total / BLOCK
         for j in range(BLOCK):
@@ -118,7 +110,6 @@ def average_weights(first, blocks, stream, keys, values, direction, moments):
     moments[SUM] = mean * BLOCK * blocks
     moments[SQUARES] = squares
     moments[NON_FINITE] = non_finite
-    moments[REJECTED] = rejected
 
 
 def pairwise(buffer):
@@ -137,7 +128,7 @@ def weight_of(model: Model, order: str, generic: bool = False) -> Callable[..., 
         return weight_by_cosine
     if order == "wo":
         return weight_over_wo
-    return weight_over_wi if model.weight is None or generic else weight_reduced
+    return weight_over_wi if model.weight is None or generic else model.weight
 
 
 @cache
@@ -149,7 +140,6 @@ def sampling_kernel(model: Model, mean: bool, scrambled: bool, order: str = "wi"
         evaluate=model.evaluate,
         sample=model.sample,
         pdf=model.pdf,
-        reduced_weight=model.weight,
         weight=weight_of(model, order, generic),
         uniforms=sobol_uniforms if scrambled else random_uniforms,
         incidence=every_incidence if mean else fixed_incidence,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import pi, sqrt
+from math import pi
 from typing import NamedTuple
 
 from albedo_lab.model import EnergyConserving, Model, Parameter, Reciprocal
 from albedo_lab.optics.coordinates import PLAIN
 from albedo_lab.optics.frame import Direction
-from albedo_lab.optics.maths import sincos2pi
+from albedo_lab.optics.lobes import sample_cosine
 from albedo_lab.sources import losasso, schlick1993
 
 
@@ -21,8 +21,7 @@ def evaluate(p: Lambert, wi: Direction, wo: Direction) -> float:
 
 
 def sample(p: Lambert, wo: Direction, u1: float, u2: float) -> Direction:
-    s, (sp, cp) = sqrt(1.0 - u1), sincos2pi(u2)
-    return Direction(s * cp, s * sp, sqrt(u1))
+    return sample_cosine(u1, u2)
 
 
 def pdf(p: Lambert, wi: Direction, wo: Direction) -> float:

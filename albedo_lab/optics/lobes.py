@@ -1,12 +1,18 @@
-"""Sampling a lobe about an axis and a cosine-power distribution of half-vectors, each with its exact density per solid angle."""
+"""Sampling the cosine, a lobe about an axis and a cosine power of half-vectors; the last two with their exact densities."""
 
 from __future__ import annotations
 
-from math import pi
+from math import pi, sqrt
 
 from albedo_lab.optics.frame import Direction, about_axis, cosine_power, length, normal_power
 from albedo_lab.optics.maths import log, sincos2pi
 from albedo_lab.optics.profiles import power_lobe
+
+
+def sample_cosine(u1: float, u2: float) -> Direction:
+    """A direction with density cos / pi about the normal."""
+    s, (sp, cp) = sqrt(1.0 - u1), sincos2pi(u2)
+    return Direction(s * cp, s * sp, sqrt(u1))
 
 
 def sample_lobe(axis: Direction, n: float, u1: float, u2: float) -> Direction:

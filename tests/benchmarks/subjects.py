@@ -34,7 +34,7 @@ def averaging(model: Model, p: Any, samples: int, scrambled: bool, generic: bool
     values, direction, blocks = tuple(map(float, p)), incident(MU, 0.0), -(-samples // BLOCK)
 
     def run() -> Moments:
-        moments = np.zeros(4)
+        moments = np.zeros(3)
         kernel(0, blocks, np.uint32(stream), KEYS, values, direction, moments)
         count = blocks * BLOCK
         return Moments(count, moments[SUM], moments[SQUARES] + moments[SUM] ** 2 / count)

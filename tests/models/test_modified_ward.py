@@ -1,4 +1,4 @@
-"""Modified Ward (neumann1999 eq. 35), and its anisotropic form."""
+"""Modified Ward (neumann1999 eq. 35), and its anisotropic form; what it shares with Ward stands in test_ward."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from scipy.integrate import quad
 
 from albedo_lab.models.modified_ward import MODEL, Ward, evaluate
 from albedo_lab.models.ward import MODEL as WARD
-from albedo_lab.optics.frame import Direction
 from tests.models import trial
 
 WIDTHS = (0.05, 0.3, 1.0)
@@ -33,27 +32,6 @@ def test_anisotropic_formula_for_a_viewer_at_the_normal(phi: float) -> None:
     width = (math.cos(phi) / 0.1) ** 2 + (math.sin(phi) / 0.4) ** 2
     expected = math.exp(-(math.tan(theta / 2) ** 2) * width) / (4 * math.pi * 0.1 * 0.4)
     assert math.isclose(evaluate(ANISOTROPIC, trial.direction(theta, phi), trial.at(1.0)), expected, rel_tol=1e-12)
-
-
-def test_a_quarter_turn_swaps_the_widths() -> None:
-    for wi, wo in trial.random_pairs():
-        turned = Direction(-wi.y, wi.x, wi.z), Direction(-wo.y, wo.x, wo.z)
-        assert math.isclose(evaluate(ANISOTROPIC, wi, wo), evaluate(Ward(0.4, 0.1), *turned), rel_tol=1e-12)
-
-
-def test_m_sets_both_widths() -> None:
-    assert MODEL.bind({"m": 0.3}) == Ward(0.3, 0.3)
-    assert MODEL.bind({"m": 0.3, "m_y": 0.2}) == Ward(0.3, 0.2)
-    assert MODEL.isotropic(Ward(0.3, 0.3))
-    assert not MODEL.isotropic(ANISOTROPIC)
-
-
-def test_reciprocal() -> None:
-    trial.assert_reciprocal(MODEL, ANISOTROPIC, *(Ward(m, m) for m in WIDTHS))
-
-
-def test_weight() -> None:
-    trial.assert_weight_is_contract(MODEL, ANISOTROPIC, *(Ward(m, m) for m in (*WIDTHS, 1e-4)))
 
 
 @every_width

@@ -1,4 +1,4 @@
-"""Ward (neumann1999 eq. 34), and its anisotropic form."""
+"""Ward (neumann1999 eq. 34), and its anisotropic form; and what the modified model has in common with it."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import math
 import pytest
 from scipy.integrate import quad
 
+from albedo_lab.model import Model
 from albedo_lab.models.modified_ward import MODEL as MODIFIED
 from albedo_lab.models.ward import MODEL, Ward, evaluate
 from albedo_lab.optics.frame import Direction
@@ -14,6 +15,7 @@ from tests.models import trial
 
 WIDTHS = (0.05, 0.3, 1.0)
 every_width = pytest.mark.parametrize("m", WIDTHS)
+both_models = pytest.mark.parametrize("model", [MODEL, MODIFIED], ids=lambda model: model.name)
 ANISOTROPIC = Ward(0.1, 0.4)
 
 
@@ -35,25 +37,30 @@ def test_anisotropic_formula_for_a_viewer_at_the_normal(phi: float) -> None:
     assert math.isclose(evaluate(ANISOTROPIC, trial.direction(theta, phi), trial.at(1.0)), expected, rel_tol=1e-12)
 
 
-def test_a_quarter_turn_swaps_the_widths() -> None:
+@both_models
+def test_a_quarter_turn_swaps_the_widths(model: Model) -> None:
     for wi, wo in trial.random_pairs():
         turned = Direction(-wi.y, wi.x, wi.z), Direction(-wo.y, wo.x, wo.z)
-        assert math.isclose(evaluate(ANISOTROPIC, wi, wo), evaluate(Ward(0.4, 0.1), *turned), rel_tol=1e-12)
+        expected = model.evaluate(Ward(0.4, 0.1), *turned)
+        assert math.isclose(model.evaluate(ANISOTROPIC, wi, wo), expected, rel_tol=1e-12)
 
 
-def test_m_sets_both_widths() -> None:
-    assert MODEL.bind({"m": 0.3}) == Ward(0.3, 0.3)
-    assert MODEL.bind({"m": 0.3, "m_y": 0.2}) == Ward(0.3, 0.2)
-    assert MODEL.isotropic(Ward(0.3, 0.3))
-    assert not MODEL.isotropic(ANISOTROPIC)
+@both_models
+def test_m_sets_both_widths(model: Model) -> None:
+    assert model.bind({"m": 0.3}) == Ward(0.3, 0.3)
+    assert model.bind({"m": 0.3, "m_y": 0.2}) == Ward(0.3, 0.2)
+    assert model.isotropic(Ward(0.3, 0.3))
+    assert not model.isotropic(ANISOTROPIC)
 
 
-def test_reciprocal() -> None:
-    trial.assert_reciprocal(MODEL, ANISOTROPIC, *(Ward(m, m) for m in WIDTHS))
+@both_models
+def test_reciprocal(model: Model) -> None:
+    trial.assert_reciprocal(model, ANISOTROPIC, *(Ward(m, m) for m in WIDTHS))
 
 
-def test_weight() -> None:
-    trial.assert_weight_is_contract(MODEL, ANISOTROPIC, *(Ward(m, m) for m in (*WIDTHS, 1e-4)))
+@both_models
+def test_weight(model: Model) -> None:
+    trial.assert_weight_is_contract(model, ANISOTROPIC, *(Ward(m, m) for m in (*WIDTHS, 1e-4)))
 
 
 @every_width
