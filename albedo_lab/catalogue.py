@@ -17,10 +17,12 @@ def names() -> list[str]:
 
 
 def find(name: str) -> Model:
-    """The model of that name.
+    """The model of that name; for the path of a `.binary` file, the measurement in it.
 
-    Raises BadInput for an unknown name, with the nearest known ones.
+    Raises BadInput for an unknown name, with the nearest known ones, and for a file that cannot be read.
     """
+    if name.endswith(".binary"):
+        return find("merl").member({"file": name})[0]
     if name not in names():
         nearest = difflib.get_close_matches(name, names(), n=3, cutoff=0.5)
         hint = f"did you mean {' or '.join(nearest)}?" if nearest else "see albedo-lab list"

@@ -21,7 +21,7 @@ import click
 from albedo_lab import __version__, catalogue
 from albedo_lab.errors import BadInput, Inconclusive
 from albedo_lab.files import write_whole
-from albedo_lab.model import Claim, GrazingAlbedo, Maximum, Model, Parameter, Reference
+from albedo_lab.model import Choice, Claim, Count, File, GrazingAlbedo, Maximum, Model, Parameter, Reference
 from albedo_lab.report.formats import KINDS, format_rows, format_table
 
 if TYPE_CHECKING:
@@ -150,6 +150,15 @@ def together(*options: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 
 MODEL = click.argument("model", callback=model_named)
+PARAMETERS = click.option(
+    "-p",
+    "--parameter",
+    "parameters",
+    multiple=True,
+    callback=assigned,
+    metavar="NAME=VALUE[,VALUE...]",
+    help="Of the model, or its scale. Several values make a grid, the first parameter varying slowest.",
+)
 SEED = click.option("--seed", type=whole, default=0, show_default=True, metavar="N", help="Of the random numbers.")
 THREADS = click.option("--threads", type=whole, metavar="N", help="[default: as many as there are processors at hand]")
 LAYOUT = together(
@@ -158,15 +167,7 @@ LAYOUT = together(
 )
 ESTIMATE = together(
     MODEL,
-    click.option(
-        "-p",
-        "--parameter",
-        "parameters",
-        multiple=True,
-        callback=assigned,
-        metavar="NAME=VALUE[,VALUE...]",
-        help="Of the model, or its scale. Several values make a grid, the first parameter varying slowest.",
-    ),
+    PARAMETERS,
     click.option(
         "--tolerance",
         type=real,
@@ -180,6 +181,12 @@ ESTIMATE = together(
 )
 
 
+def bound(model: Model, parameters: dict[str, list[Any]]) -> tuple[Model, Any]:
+    """The member of the model's family, and its parameters, that the first of all values stand for."""
+    member, rest = model.member({name: values[0] for name, values in parameters.items() if name != "scale"})
+    return member, member.bind(rest)
+
+
 def answer(
     question: Callable[..., pd.DataFrame],
     model: Model,
@@ -189,7 +196,7 @@ def answer(
     **options: Any,
 ) -> None:
     """Asks an analysis about a model and prints what it says; an option that was not given has the analysis' own default."""
-    model.bind({name: values[0] for name, values in parameters.items() if name != "scale"})  # no option is a parameter
+    bound(model, parameters)  # no option is a parameter
     with progress_bar() as progress:
         given = {name: value for name, value in options.items() if value is not None}
         frame = question(model, progress=progress, **given, **parameters)
@@ -214,9 +221,13 @@ def list_models(kind: str, output: Path | None) -> None:
 
 @main.command()
 @MODEL
-def show(model: Model) -> None:
-    """One model. Its formula, parameters with domains, source and claims."""
-    emit("\n".join(description(model)) + "\n", None)
+@PARAMETERS
+def show(model: Model, parameters: dict[str, list[Any]]) -> None:
+    """One model. Its formula, parameters with domains, source and claims; of a family the member that -p chooses."""
+    member = model.member({name: values[0] for name, values in parameters.items()})[0]
+    if parameters:
+        bound(model, parameters)
+    emit("\n".join(description(member)) + "\n", None)
 
 
 @main.command()
@@ -271,24 +282,42 @@ def report(papers: tuple[str, ...], output: Path, seed: int, threads: int | None
 
 def description(model: Model) -> Iterator[str]:
     """A model's record, as lines for a person."""
-    p = model.bind({})
     references = (model.source, *model.also)
     scale = "the largest constant that energy balance allows, computed"
     if not isinstance(model.scale, Maximum):
-        scale = f"{model.scale(p):g} for the default parameters"
+        scale = f"{defaults(model, model.scale)} for the default parameters"
     yield from (model.name, model.summary, "")
     yield from entries(
         ("f_r", model.formula),
         ("scale", f"{model.scale_symbol}; default: {scale}"),
         ("reciprocal", "yes" if model.reciprocal else "no: albedos are given for both orders of integration"),
-        ("smooth", f"in polar angles about the {model.smooth_in.axis.name.lower()} vector"),
+        ("smooth", "term by term" if model.parts else f"in polar angles about the {model.smooth_in.axis.name.lower()} vector"),
         *(("source", citation(reference)) for reference in references),
         *(("deviation", deviation) for reference in references for deviation in reference.deviations),
     )
+    if model.choices:
+        yield from ("", "choices")
+        yield from entries(*((choice.name, selection(choice, model.chosen.get(choice.name))) for choice in model.choices))
     yield from ("", "parameters")
     yield from entries(*((parameter.name, meaning(parameter)) for parameter in model.parameters))
     yield from ("", "claims")
-    yield from entries(*((claim.place, statement(claim, p)) for claim in model.claims))
+    yield from entries(*((claim.place, statement(claim, model)) for claim in model.claims))
+
+
+def defaults(model: Model, figure: Callable[[Any], float]) -> str:
+    """A figure for the default parameters; of a measurement nothing is known without its file."""
+    try:
+        return f"{figure(model.bind({})):g}"
+    except BadInput:
+        return "unknown"
+
+
+def selection(choice: Choice | Count | File, chosen: object) -> str:
+    """What a choice selects, its options, and what is chosen here."""
+    default = f", default {choice.default}" if choice.default else ""
+    every = "; all of them unless one is given" if choice.swept else ""
+    other = f"; here {chosen}" if chosen != choice.default else ""
+    return f"{choice.meaning}; {choice.domain}{default}{every}{other}"
 
 
 def meaning(parameter: Parameter) -> str:
@@ -298,10 +327,10 @@ def meaning(parameter: Parameter) -> str:
     return f"{parameter.meaning}; in {parameter.domain}{unit}, default {parameter.default:g}{unit}{sets}"
 
 
-def statement(claim: Claim, p: Any) -> str:
+def statement(claim: Claim, model: Model) -> str:
     """What the authors say of their model."""
     where = f"where {claim.where}: " if claim.where else ""
-    value = f" value(p) = {claim.value(p):g} for the default parameters." if isinstance(claim, GrazingAlbedo) else ""
+    value = f" value(p) = {defaults(model, claim.value)} for the default parameters." if isinstance(claim, GrazingAlbedo) else ""
     return f"{where}{inspect.getdoc(claim)}{value}"
 
 

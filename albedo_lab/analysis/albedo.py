@@ -9,7 +9,7 @@ import pandas as pd
 
 from albedo_lab.analysis.constant import constant
 from albedo_lab.analysis.request import Effort, effort, grid, model_of, orders, sequence
-from albedo_lab.analysis.rows import Progress, conclude, degrees_of, figures, label, parameter_columns, track
+from albedo_lab.analysis.rows import Progress, conclude, degrees_of, figures, label, parameter_columns, table, track
 from albedo_lab.errors import BadInput
 from albedo_lab.estimate.methods import estimate
 from albedo_lab.estimate.record import Estimate, Question, exact
@@ -80,23 +80,23 @@ def albedo(
     elevations = _elevations(mu, theta, theta_deg)
     azimuths = _azimuths(phi, phi_deg)
     cells = [
-        (p, scale, elevation, azimuth, order)
-        for p, scale in list(grid(model, parameters))
+        (member, p, scale, elevation, azimuth, order)
+        for member, p, scale in list(grid(model, parameters))
         for elevation in elevations
-        for azimuth in (azimuths if not model.isotropic(p) else azimuths[:1])
-        for order in orders(model)
+        for azimuth in (azimuths if not member.isotropic(p) else azimuths[:1])
+        for order in orders(member)
     ]
-    anisotropic = any(not model.isotropic(p) for p, *_ in cells)
+    anisotropic = any(not member.isotropic(p) for member, p, *_ in cells)
     rows = []
-    for p, given, (cosine, degrees), (angle, angle_deg), order in track(cells, progress):
-        scale = constant(model, p, given)
+    for member, p, given, (cosine, degrees), (angle, angle_deg), order in track(cells, progress):
+        scale = constant(member, p, given)
         where = {"scale": scale.value, "theta_deg": degrees} | ({"phi_deg": angle_deg} if anisotropic else {})
-        head = parameter_columns(model, p, "albedo") | where
-        question = Question(model, p, cosine, angle, order)
+        head = parameter_columns(member, p, "albedo") | where
+        question = Question(member, p, cosine, angle, order)
         shape = shape_estimate(question, scale, want)
-        found = conclude(shape.scaled(scale), want.tolerance, label(model, head))
-        rows.append({"model": model.name} | head | figures("albedo", found) | {"order": order})
-    return pd.DataFrame(rows)
+        found = conclude(shape.scaled(scale), want.tolerance, label(member, head))
+        rows.append(({"model": member.name} | head, figures("albedo", found) | {"order": order}))
+    return table(rows)
 
 
 def shape_estimate(question: Question, scale: Estimate, want: Effort) -> Estimate:

@@ -7,7 +7,7 @@ import pandas as pd
 from albedo_lab.analysis.albedo import shape_estimate
 from albedo_lab.analysis.constant import constant
 from albedo_lab.analysis.request import effort, grid, model_of, orders
-from albedo_lab.analysis.rows import Progress, conclude, figures, label, parameter_columns, track
+from albedo_lab.analysis.rows import Progress, conclude, figures, label, parameter_columns, table, track
 from albedo_lab.estimate.record import Question
 from albedo_lab.model import Model
 
@@ -40,12 +40,12 @@ def mean_albedo(
     """
     model = model_of(model)
     want = effort(tolerance, method, seed, threads)
-    cells = [(p, scale, order) for p, scale in list(grid(model, parameters)) for order in orders(model)]
+    cells = [(member, p, scale, order) for member, p, scale in list(grid(model, parameters)) for order in orders(member)]
     rows = []
-    for p, given, order in track(cells, progress):
-        scale = constant(model, p, given)
-        head = parameter_columns(model, p, "mean_albedo") | {"scale": scale.value}
-        shape = shape_estimate(Question(model, p, None, order=order), scale, want)
-        found = conclude(shape.scaled(scale), want.tolerance, label(model, head))
-        rows.append({"model": model.name} | head | figures("mean_albedo", found) | {"order": order})
-    return pd.DataFrame(rows)
+    for member, p, given, order in track(cells, progress):
+        scale = constant(member, p, given)
+        head = parameter_columns(member, p, "mean_albedo") | {"scale": scale.value}
+        shape = shape_estimate(Question(member, p, None, order=order), scale, want)
+        found = conclude(shape.scaled(scale), want.tolerance, label(member, head))
+        rows.append(({"model": member.name} | head, figures("mean_albedo", found) | {"order": order}))
+    return table(rows)

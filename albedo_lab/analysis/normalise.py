@@ -9,7 +9,7 @@ import pandas as pd
 
 from albedo_lab.analysis.constant import largest_constant
 from albedo_lab.analysis.request import Effort, effort, grid, model_of, orders
-from albedo_lab.analysis.rows import Progress, conclude, degrees_of, figures, label, parameter_columns, track
+from albedo_lab.analysis.rows import Progress, conclude, degrees_of, figures, label, parameter_columns, table, track
 from albedo_lab.analysis.supremum import GRAZING, Supremum, supremum
 from albedo_lab.errors import BadInput
 from albedo_lab.estimate.methods import estimate
@@ -51,22 +51,17 @@ def normalise(
     want = effort(tolerance, method, seed, threads)
     if "scale" in parameters:
         raise BadInput("scale", parameters["scale"], "is what normalise finds; leave it out")
-    cells = [(p, order) for p, _ in list(grid(model, parameters)) for order in orders(model)]
-    anisotropic = any(not model.isotropic(p) for p, _ in cells)
+    cells = [(member, p, order) for member, p, _ in list(grid(model, parameters)) for order in orders(member)]
+    anisotropic = any(not member.isotropic(p) for member, p, _ in cells)
     rows = []
-    for p, order in track(cells, progress):
-        peak = supremum(model, p, order)
-        head = parameter_columns(model, p, "constant")
-        found = conclude(_measured(model, p, order, peak, want), want.tolerance, label(model, head))
-        rows.append(
-            {"model": model.name}
-            | head
-            | figures("constant", found)
-            | {"peak_theta_deg": degrees_of(peak.mu), "paper_constant": model.paper_constant(p)}
-            | {"behaviour": peak.behaviour, "order": order}
-            | ({"peak_phi_deg": math.degrees(peak.phi)} if anisotropic else {})
-        )
-    return pd.DataFrame(rows)
+    for member, p, order in track(cells, progress):
+        peak = supremum(member, p, order)
+        head = parameter_columns(member, p, "constant")
+        found = conclude(_measured(member, p, order, peak, want), want.tolerance, label(member, head))
+        where = {"peak_theta_deg": degrees_of(peak.mu), "paper_constant": member.paper_constant(p)}
+        how = {"behaviour": peak.behaviour, "order": order} | ({"peak_phi_deg": math.degrees(peak.phi)} if anisotropic else {})
+        rows.append(({"model": member.name} | head, figures("constant", found) | where | how))
+    return table(rows)
 
 
 def _measured(model: Model, p: object, order: str, peak: Supremum, want: Effort) -> Estimate:

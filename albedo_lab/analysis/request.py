@@ -15,7 +15,7 @@ from albedo_lab.catalogue import find
 from albedo_lab.errors import BadInput
 from albedo_lab.estimate.methods import METHODS
 from albedo_lab.estimate.record import Tolerance
-from albedo_lab.model import Model, Parameter
+from albedo_lab.model import Choice, Model, Parameter
 
 SCALE = Parameter("scale", "constant of the printed equation", default=math.nan, low=0.0, high=1e300)
 DEFAULT_TOLERANCE = Tolerance(1e-5, 1e-5)
@@ -64,13 +64,19 @@ def sequence(name: str, value: object) -> list[Any]:
     return values
 
 
-def grid(model: Model, parameters: Mapping[str, object]) -> Iterator[tuple[Any, float | None]]:
-    """Every combination of the parameters' values, the first varying slowest: the model's named tuple, and the scale if given."""
-    several = {name: sequence(name, value) for name, value in parameters.items()}
+def grid(model: Model, parameters: Mapping[str, object]) -> Iterator[tuple[Model, Any, float | None]]:
+    """Every combination of the parameters' values, the first varying slowest.
+
+    Each with the member of the model's family that its choices select, its named tuple, and the scale if given. A choice that is
+    swept and not given takes all its options, slowest of all.
+    """
+    swept = {c.name: list(c.options) for c in model.choices if isinstance(c, Choice) and c.swept and c.name not in parameters}
+    several = swept | {name: sequence(name, value) for name, value in parameters.items()}
     for values in itertools.product(*several.values()):
         named = dict(zip(several, values, strict=True))
         scale = SCALE.parse(named.pop("scale")) if "scale" in named else None
-        yield model.bind(named), scale
+        member, numbers = model.member(named)
+        yield member, member.bind(numbers), scale
 
 
 def orders(model: Model) -> Sequence[str]:

@@ -6,14 +6,31 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
+import pandas as pd
+
 from albedo_lab.errors import Inconclusive
 from albedo_lab.estimate.record import Estimate, Tolerance
 from albedo_lab.model import Model
 
 Progress = Callable[[int, int], None]
+LAST_ASKED = ("scale", "theta_deg", "phi_deg")
+"""What follows the parameters in every table."""
 
 
-def parameter_columns(model: Model, p: Any, quantity: str) -> dict[str, float]:
+def table(rows: Sequence[tuple[Mapping[str, Any], Mapping[str, Any]]]) -> pd.DataFrame:
+    """Rows, each told as what was asked and what was found, as a DataFrame.
+
+    Members of one family may differ in their parameters: a column that a row lacks is empty there, and stands beside the other
+    things asked.
+    """
+    asked = dict.fromkeys(name for head, _ in rows for name in head)
+    found = dict.fromkeys(name for _, body in rows for name in body)
+    last = [name for name in LAST_ASKED if name in asked]
+    order = [*(name for name in asked if name not in last), *last, *found]
+    return pd.DataFrame([{**head, **body} for head, body in rows], columns=order)
+
+
+def parameter_columns(model: Model, p: Any, quantity: str) -> dict[str, Any]:
     """A column per parameter; one that bears the quantity's name, as Lambert's albedo does, is called `<name>_parameter`."""
     return {f"{name}_parameter" if name == quantity else name: value for name, value in model.columns(p).items()}
 
@@ -52,7 +69,8 @@ def conclude(e: Estimate, tolerance: Tolerance, cell: str) -> Estimate:
 
 def label(model: Model, row: Mapping[str, Any]) -> str:
     """A cell in words, for a message."""
-    return ", ".join([model.name, *(f"{name} = {value:g}" for name, value in row.items() if isinstance(value, int | float))])
+    words = (f"{name} = {value:g}" if isinstance(value, int | float) else f"{name} = {value}" for name, value in row.items())
+    return ", ".join([model.name, *words])
 
 
 def track(cells: Sequence[Any], progress: Progress | None) -> Iterator[Any]:

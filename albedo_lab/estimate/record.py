@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from albedo_lab.model import Model
+from albedo_lab.tables import plain
 
 NORMAL_975 = 1.959963984540054
 
@@ -25,6 +26,11 @@ class Question:
     mu: float | None
     phi: float = 0.0
     order: str = "wi"
+
+    @property
+    def values(self) -> tuple[Any, ...]:
+        """The parameters as kernels take them."""
+        return tuple(map(plain, self.p))
 
 
 @dataclass(frozen=True, slots=True)

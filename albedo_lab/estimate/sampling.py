@@ -110,7 +110,7 @@ def _keys(seed: int, replicate: int) -> tuple[np.uint32, ...]:
 
 def _run(kernel: Callable[..., Any], question: Question, jobs: list[Any], threads: int) -> Iterable[NDArray[np.float64]]:
     """The moments of every job, in order, whatever the number of threads."""
-    values = tuple(map(float, question.p))
+    values = question.values
     direction = (0.0, 0.0, 1.0) if question.mu is None else incident(question.mu, question.phi)
 
     def work(job: Any) -> NDArray[np.float64]:

@@ -11,6 +11,7 @@ by itself and within the kernel, and only the second copy goes to disk; a cold a
 
 from __future__ import annotations
 
+import dis
 import hashlib
 import inspect
 import linecache
@@ -175,7 +176,8 @@ def _feed_code(code: types.CodeType, digest: Any) -> None:
 
 
 def _global_names(code: types.CodeType) -> Iterator[str]:
-    yield from code.co_names
+    """The globals that a function reads; `co_names` would add its attributes, which may bear the name of some other function."""
+    yield from (instruction.argval for instruction in dis.get_instructions(code) if instruction.opname == "LOAD_GLOBAL")
     for constant in code.co_consts:
         if isinstance(constant, types.CodeType):
             yield from _global_names(constant)

@@ -1,5 +1,7 @@
 """The template that averages sample weights: one kernel per model, for directional and for mean albedo, scrambled or random.
 
+A Dirac part is added to every weight as its reflectance: for one direction a constant, for the mean one more integrand.
+
 Blocks of 512 samples are reduced by fixed-order pairwise sums, their means and sums of squares merged in order, so a chunk of
 samples gives the same bits whatever thread runs it.
 """
@@ -30,6 +32,7 @@ evaluate = Placeholder("evaluate")
 sample = Placeholder("sample")
 pdf = Placeholder("pdf")
 weight = Placeholder("weight")
+mirror = Placeholder("mirror")
 uniforms = Placeholder("uniforms")
 incidence = Placeholder("incidence")
 
@@ -97,7 +100,7 @@ def average_weights(first, blocks, stream, keys, values, direction, moments):
         for j in range(BLOCK):
             u1, u2, u3, u4, stretch = uniforms(base, np.uint32(j), stream, keys)
             wo, factor = incidence(direction, u3, u4)
-            buffer[j] = stretch * factor * weight(p, wo, u1, u2)
+            buffer[j] = factor * (stretch * weight(p, wo, u1, u2) + mirror(p, wo.z))
         for j in range(BLOCK):
             non_finite += not abs(buffer[j]) <= LARGEST
         total = pairwise(buffer.copy())
@@ -141,6 +144,7 @@ def sampling_kernel(model: Model, mean: bool, scrambled: bool, order: str = "wi"
         sample=model.sample,
         pdf=model.pdf,
         weight=weight_of(model, order, generic),
+        mirror=model.mirror,
         uniforms=sobol_uniforms if scrambled else random_uniforms,
         incidence=every_incidence if mean else fixed_incidence,
     )

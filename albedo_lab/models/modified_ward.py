@@ -6,7 +6,7 @@ from math import nan
 
 from albedo_lab.model import MAXIMUM, EnergyConserving, Model, Reciprocal
 from albedo_lab.models.ward import WIDTHS, Ward, gaussian, pdf, sample, sample_normal, widths
-from albedo_lab.optics.coordinates import Axis, Coordinates
+from albedo_lab.optics.coordinates import Axis, Coordinates, Kink
 from albedo_lab.optics.frame import Direction, bisector
 from albedo_lab.optics.profiles import GAUSS
 from albedo_lab.sources import neumann1999
@@ -38,7 +38,7 @@ MODEL = Model(
     scale=MAXIMUM,
     scale_symbol="C_max",
     paper_constant=lambda p: TABLE_4.get(p.m_x, nan) if p.m_x == p.m_y else nan,
-    smooth_in=Coordinates(Axis.HALF, GAUSS, ellipse=widths, kink=True),
+    smooth_in=Coordinates(Axis.HALF, GAUSS, ellipse=widths, kink=Kink.EQUAL_COSINES),
     isotropic=lambda p: p.m_x == p.m_y,
     source=neumann1999("eq. 35; constants: table 4"),
     claims=(Reciprocal("neumann1999 §6.2"), EnergyConserving("neumann1999 table 4")),

@@ -6,7 +6,7 @@ from math import pi
 from typing import NamedTuple
 
 from albedo_lab.model import EnergyConserving, Model, Parameter, Reciprocal
-from albedo_lab.optics.coordinates import Axis, Coordinates
+from albedo_lab.optics.coordinates import Axis, Coordinates, Kink
 from albedo_lab.optics.frame import Direction, cosine_power, mirror_of
 from albedo_lab.optics.lobes import lobe_pdf, sample_lobe
 from albedo_lab.optics.profiles import POWER
@@ -40,7 +40,7 @@ def exponent(p: Phong) -> float:
 
 EXPONENT = Parameter("n", "exponent of the lobe", default=100.0, low=0.0, high=1e8, scale="log")
 MIRROR_LOBE = Coordinates(Axis.MIRROR, POWER, exponent)
-KINKED_MIRROR_LOBE = Coordinates(Axis.MIRROR, POWER, exponent, kink=True)
+KINKED_MIRROR_LOBE = Coordinates(Axis.MIRROR, POWER, exponent, kink=Kink.EQUAL_COSINES)
 
 MODEL = Model(
     "phong",

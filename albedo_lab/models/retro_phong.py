@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from albedo_lab.model import EnergyConserving, Model, Reciprocal
 from albedo_lab.models.phong import EXPONENT, Phong, exponent, largest_constant
-from albedo_lab.optics.coordinates import Axis, Coordinates
+from albedo_lab.optics.coordinates import Axis, Coordinates, Kink
 from albedo_lab.optics.frame import Direction, cosine_power
 from albedo_lab.optics.lobes import lobe_pdf, sample_lobe
 from albedo_lab.optics.profiles import POWER
@@ -34,7 +34,7 @@ MODEL = Model(
     scale=largest_constant,
     scale_symbol="c_n",
     paper_constant=largest_constant,
-    smooth_in=Coordinates(Axis.RETRO, POWER, exponent, kink=True),
+    smooth_in=Coordinates(Axis.RETRO, POWER, exponent, kink=Kink.EQUAL_COSINES),
     source=neumann1999("eq. 13"),
     claims=(Reciprocal("neumann1999 §3.1"), EnergyConserving("neumann1999 §3.1", where="n >= 1")),
 )

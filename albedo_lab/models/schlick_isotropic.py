@@ -10,6 +10,7 @@ from albedo_lab.optics.coordinates import Axis, Coordinates
 from albedo_lab.optics.frame import Direction, bisector, reflect
 from albedo_lab.optics.maths import sincos2pi
 from albedo_lab.optics.profiles import TANGENT, normal_from_slopes
+from albedo_lab.optics.schlick1993 import Z
 from albedo_lab.sources import neumann1999, schlick1993
 
 
@@ -17,16 +18,9 @@ class Schlick(NamedTuple):
     r: float
 
 
-def zenith(p: Schlick, v: Direction) -> float:
-    """Z(t) = r / (1 - (1-r) t^2)^2, t = N.H = v.z/|v|; written so that 1 - t^2 is not taken from 1."""
-    xy, zz = v.x * v.x + v.y * v.y, v.z * v.z
-    k = (xy + zz) / (xy + p.r * zz)
-    return p.r * k * k
-
-
 def evaluate(p: Schlick, wi: Direction, wo: Direction) -> float:
     shadowing = (p.r + (1.0 - p.r) * wi.z) * (p.r + (1.0 - p.r) * wo.z)
-    return zenith(p, bisector(wi, wo)) / (4.0 * pi * shadowing)  # eq. 36
+    return Z(p.r, bisector(wi, wo)) / (4.0 * pi * shadowing)  # eq. 36
 
 
 def sample(p: Schlick, wo: Direction, u1: float, u2: float) -> Direction:
@@ -38,7 +32,7 @@ def sample(p: Schlick, wo: Direction, u1: float, u2: float) -> Direction:
 def pdf(p: Schlick, wi: Direction, wo: Direction) -> float:
     # normals: Z t / pi; reflection: 4 (wo.h) = 2 |v|, and t / |v| = v.z / |v|^2
     v = bisector(wi, wo)
-    return zenith(p, v) * v.z / (2.0 * pi * (v.x * v.x + v.y * v.y + v.z * v.z))
+    return Z(p.r, v) * v.z / (2.0 * pi * (v.x * v.x + v.y * v.y + v.z * v.z))
 
 
 def widths(p: Schlick) -> tuple[float, float]:

@@ -6,7 +6,7 @@ from math import nan
 
 from albedo_lab.model import MAXIMUM, EnergyConserving, Model, Reciprocal
 from albedo_lab.models.blinn import EXPONENT, Blinn, exponent, pdf, sample
-from albedo_lab.optics.coordinates import Axis, Coordinates
+from albedo_lab.optics.coordinates import Axis, Coordinates, Kink
 from albedo_lab.optics.frame import Direction, bisector, normal_power
 from albedo_lab.optics.profiles import POWER
 from albedo_lab.sources import neumann1999
@@ -29,7 +29,7 @@ MODEL = Model(
     scale=MAXIMUM,
     scale_symbol="C_n",
     paper_constant=lambda p: TABLE_2.get(p.n, nan),
-    smooth_in=Coordinates(Axis.HALF, POWER, exponent, kink=True),
+    smooth_in=Coordinates(Axis.HALF, POWER, exponent, kink=Kink.EQUAL_COSINES),
     source=neumann1999("eq. 32; constants: table 2"),
     claims=(Reciprocal("neumann1999 §6.1"), EnergyConserving("neumann1999 table 2")),
 )

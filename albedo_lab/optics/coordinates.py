@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
 
+from albedo_lab.optics.frame import Direction, mirror_of
 from albedo_lab.optics.profiles import TANGENT, Profile
 
 
@@ -17,6 +18,17 @@ class Axis(IntEnum):
     MIRROR = 1
     RETRO = 2
     HALF = 3
+    LOBE = 4
+
+
+class Kink(IntEnum):
+    """Where a BRDF has a kink, so that quadrature splits there."""
+
+    NONE = 0
+    EQUAL_COSINES = 1
+    """Where both directions have the same cosine, as max() of them makes it."""
+    V_CAVITY = 2
+    """Where the V-cavity factor min(1, 2 (n.h)(n.wo)/(wo.h), 2 (n.h)(n.wi)/(wo.h)) turns over; about HALF only."""
 
 
 def unit_ellipse(p: Any) -> tuple[float, float]:
@@ -29,20 +41,27 @@ def no_exponent(p: Any) -> float:
     return 0.0
 
 
+def mirror_axis(p: Any, wo: Direction) -> Direction:
+    """The mirror direction, for lobes that turn about another one only where a model says so."""
+    return mirror_of(wo)
+
+
 @dataclass(frozen=True)
 class Coordinates:
     """Polar coordinates about `axis` with the radial variable of `profile`.
 
     `exponent(p)` feeds the profile; `ellipse(p)` holds the widths along x and y in slope space (microfacet normals only).
-    `kink`: the BRDF has a kink where both cosines are equal, as max() makes it; quadrature then splits there.
+    `lobe(p, wo)` is the unit vector that Axis.LOBE stands for; it may point below the horizon, and the BRDF is 0 a quarter turn
+    and more away from it.
     """
 
     axis: Axis
     profile: Profile
     exponent: Callable[[Any], float] = no_exponent
     ellipse: Callable[[Any], tuple[float, float]] = unit_ellipse
-    kink: bool = False
+    kink: Kink = Kink.NONE
+    lobe: Callable[[Any, Direction], Direction] = mirror_axis
 
 
-PLAIN = Coordinates(Axis.NORMAL, TANGENT, kink=True)
+PLAIN = Coordinates(Axis.NORMAL, TANGENT, kink=Kink.EQUAL_COSINES)
 """Plain spherical angles, split at the other direction's: for a BRDF of which nothing is known."""

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from albedo_lab.analysis.albedo import albedo
+from albedo_lab.analysis.colour import colour
 from albedo_lab.analysis.mean_albedo import mean_albedo
 from albedo_lab.analysis.normalise import normalise
 from albedo_lab.estimate.record import NORMAL_975, Estimate, exact
@@ -71,7 +72,7 @@ class Curve:
 
     label: str
     model: str = ""
-    parameters: Mapping[str, float] = field(default_factory=dict)
+    parameters: Mapping[str, Any] = field(default_factory=dict)
     limit: float | None = None
 
 
@@ -92,6 +93,22 @@ class Plot:
 
 
 @dataclass(frozen=True)
+class Spectra:
+    """Albedo curves of several metals at several wavelengths (nm), and the colours that they make together.
+
+    `parameters` are those of the model `metal`.
+    """
+
+    name: str
+    title: str
+    caption: str
+    place: str
+    metals: tuple[str, ...]
+    wavelengths: tuple[float, ...]
+    parameters: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Paper:
     """A document on trial. `note` is Markdown: what the trial found."""
 
@@ -100,6 +117,7 @@ class Paper:
     note: str
     tables: tuple[Table, ...]
     plots: tuple[Plot, ...]
+    spectra: tuple[Spectra, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -139,6 +157,15 @@ def trace(plot: Plot, threads: int | None = None) -> pd.DataFrame:
             found = pd.DataFrame({"theta_deg": np.degrees(np.arccos(mu))} | constant)
         tables.append(found.assign(curve=curve.label, mu=mu))
     return pd.concat(tables, ignore_index=True)[["curve", "theta_deg", "mu", "albedo", "ci95_low", "ci95_high"]]
+
+
+def trace_spectra(spectra: Spectra, threads: int | None = None) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """The points of the albedo curves, and the colours along them, each with the table's own columns."""
+    theta_deg = [*np.arange(0.0, 89.0, 2.0).tolist(), 89.0, 89.5, 89.9]
+    asked: dict[str, Any] = {"metal": list(spectra.metals), **spectra.parameters, "theta_deg": theta_deg}
+    means = Means(1e-6, "quadrature", threads=threads).options
+    wavelengths = list(spectra.wavelengths)
+    return albedo("metal", wavelength=wavelengths, **asked, **means), colour("metal", wavelength=wavelengths, **asked, **means)
 
 
 def printed_points(plot: Plot) -> list[tuple[float, float]]:

@@ -12,6 +12,7 @@ import numpy as np
 from albedo_lab.analysis.albedo import albedo
 from albedo_lab.analysis.normalise import normalise
 from albedo_lab.estimate.record import NORMAL_975, Estimate, exact
+from albedo_lab.optics.metals import METALS, PAPER_WAVELENGTHS
 from albedo_lab.papers.audit import (
     Cell,
     Curve,
@@ -19,6 +20,7 @@ from albedo_lab.papers.audit import (
     Paper,
     Plot,
     Recipe,
+    Spectra,
     Table,
     albedo_of,
     grazing_albedo_of,
@@ -242,9 +244,16 @@ Albedo of the stretched Phong model with cₙ = (n+2)/(2π). Dots: its limit at 
 to which it tends for every angle below 90° as n → ∞."""
 
 CAPTION_5 = """\
-Albedo of the Phong (n = 150), stretched Phong (n = 150) and Ward (m = 0.1, C_max = 1) models. Dot: the limit of eq.
-26. Right: the last degrees before grazing; circles: the albedos of Ward's model that §6.2 prints. Cook-Torrance and
-He-Torrance, which the paper's figure also shows, are not yet in the catalogue."""
+Albedo of the Phong (n = 150), stretched Phong (n = 150), Cook-Torrance (m = 0.1, V-cavities), Ward (m = 0.1, C_max = 1)
+and He-Torrance (σ₀ = 0.1, τ = 1.7) models under a Fresnel term of 1. Dot: the limit of eq. 26. Right: the last degrees before
+grazing; circles: the albedos of Ward's model that §6.2 prints. He-Torrance needs a wavelength, which the paper does not print;
+here it is 0.5, in the unit of σ₀ and τ, and the Dirac part is included."""
+
+CAPTION_METALS = """\
+Eq. 27 with n = 40, as some of the spheres of the paper's figure 8, for measured refractive indices at eight wavelengths; the
+paper prints neither its indices nor its wavelengths. The band above each panel is the colour of what comes back of daylight
+(D65), as the CIE 1931 observer sees it, in sRGB; gold's at small angles is outside the gamut and shown as the nearest. Towards 90
+degrees Fresnel's reflectance goes to 1 and takes the colour away, and half of the lobe falls below the horizon."""
 
 PAPER = Paper(
     "neumann1999",
@@ -315,16 +324,33 @@ PAPER = Paper(
         ),
         Plot(
             "figure_5",
-            "Albedo of the Phong, stretched Phong and Ward models",
+            "Albedo of the Phong, stretched Phong, Cook-Torrance, Ward and He-Torrance models",
             CAPTION_5,
             "figure 5",
             (
                 Curve("Phong, n = 150", "phong", {"n": 150}),
                 Curve("stretched Phong, n = 150", "stretched_phong", {"n": 150}, float(equation_26(150))),
+                Curve("Cook-Torrance, m = 0.1", "cook_torrance", {"m": 0.1}),
                 Curve("Ward, m = 0.1", "ward", {"m": 0.1}),
+                Curve(
+                    "He-Torrance, σ₀ = 0.1, τ = 1.7",
+                    "he_torrance",
+                    {"fresnel": "one", "sigma0": 0.1, "tau": 1.7, "wavelength": 0.5},
+                ),
             ),
             points=WARD_CELLS,
             to_grazing=True,
+        ),
+    ),
+    spectra=(
+        Spectra(
+            "metals",
+            "Albedo and colour of gold, silver, copper and aluminium",
+            CAPTION_METALS,
+            "section 5.1, four metals",
+            METALS,
+            PAPER_WAVELENGTHS,
+            {"n": 40},
         ),
     ),
 )

@@ -14,11 +14,11 @@ import pandas as pd
 from albedo_lab import papers as room
 from albedo_lab.errors import BadInput
 from albedo_lab.files import write_whole
-from albedo_lab.papers.audit import Finding, Paper, Plot, Table, examine, printed_points, trace
+from albedo_lab.papers.audit import Finding, Paper, Plot, Spectra, Table, examine, printed_points, trace, trace_spectra
 from albedo_lab.papers.verdict import RULE, Kind
 from albedo_lab.report.audit_tables import DOUBTER, csv_table, doubter_rows, latex_table, markdown_table
 from albedo_lab.report.formats import as_markdown, format_table
-from albedo_lab.report.plots import picture
+from albedo_lab.report.plots import picture, spectra_picture
 
 HEAD = """\
 # The documents on trial
@@ -60,6 +60,8 @@ def write_reports(
             files |= table_files(f"{paper.name}/{table.name}", table, findings[table.name])
         for plot in paper.plots:
             files |= plot_files(f"{paper.name}/{plot.name}", plot, trace(plot, threads))
+        for spectra in paper.spectra:
+            files |= spectra_files(f"{paper.name}/{spectra.name}", spectra, *trace_spectra(spectra, threads))
         sections.append(paper_section(paper, findings))
     files["README.md"] = "\n".join([HEAD, RULE, "", *sections])
     for name, content in files.items():
@@ -110,6 +112,12 @@ def plot_files(base: str, plot: Plot, data: pd.DataFrame) -> dict[str, str | byt
     return pictures | {f"{base}.csv": format_table(data, "csv")}
 
 
+def spectra_files(base: str, spectra: Spectra, albedos: pd.DataFrame, colours: pd.DataFrame) -> dict[str, str | bytes]:
+    """Spectra in two formats, and their data."""
+    pictures = {f"{base}.{kind}": content for kind, content in spectra_picture(spectra, albedos, colours).items()}
+    return pictures | {f"{base}.csv": format_table(albedos, "csv"), f"{base}_colours.csv": format_table(colours, "csv")}
+
+
 def paper_section(paper: Paper, findings: Mapping[str, Sequence[Finding]]) -> str:
     """What the front page says of a document: counts, every figure that does not hold, pictures."""
     counts, failures = [], []
@@ -120,10 +128,11 @@ def paper_section(paper: Paper, findings: Mapping[str, Sequence[Finding]]) -> st
         failures += [[table.place, *row] for row in doubter_rows(doubted)]
     everything = [f for table in paper.tables for f in findings[table.name]]
     counts.append(["", "**all**", *(f"**{number}**" for number in tally(everything)), ""])
+    drawn: tuple[Plot | Spectra, ...] = (*paper.plots, *paper.spectra)
     pictures = [
         f"### {plot.place.capitalize()}\n\n![{plot.title}]({paper.name}/{plot.name}.svg)\n\n{plot.caption} "
         f"Files: {links(paper, plot.name, 'svg', 'png', 'csv')}.\n"
-        for plot in paper.plots
+        for plot in drawn
     ]
     return "\n".join(
         [

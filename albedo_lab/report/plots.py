@@ -1,4 +1,4 @@
-"""Albedo curves as pictures: one style for all, without pyplot, the same bytes from the same data."""
+"""Albedo curves and colours as pictures: one style for all, without pyplot, the same bytes from the same data."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 
-from albedo_lab.papers.audit import Curve, Plot
+from albedo_lab.papers.audit import Curve, Plot, Spectra
 
 OKABE_ITO = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 STYLE: Any = {
@@ -41,12 +42,53 @@ DASHED: dict[str, Any] = {"color": "black", "linestyle": (0, (5, 3)), "linewidth
 def picture(plot: Plot, data: pd.DataFrame, printed: Sequence[tuple[float, float]] = ()) -> dict[str, bytes]:
     """The plot as svg and png. `printed` are the cosines and albedos of its points."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(11.5, 5.2) if plot.to_grazing else (8.0, 5.2))
+        figure = Figure(figsize=(11.5, 5.9) if plot.to_grazing else (8.0, 5.2))
         left, *right = figure.subplots(1, 2 if plot.to_grazing else 1, squeeze=False)[0]
         against_angle(left, plot, data)
         for axes in right:
             against_cosine(axes, plot, data, printed)
+        if right:
+            figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+        else:
+            left.legend(loc="lower left")
         return {kind: _saved(figure, kind) for kind in ("svg", "png")}
+
+
+def spectra_picture(spectra: Spectra, albedos: pd.DataFrame, colours: pd.DataFrame) -> dict[str, bytes]:
+    """A panel for each metal as svg and png: a curve for each wavelength, under the colour that they make at every angle."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(11.5, 8.6))
+        hues = mpl.colormaps["viridis"](np.linspace(0.0, 0.92, len(spectra.wavelengths)))
+        panels = figure.subplots(2, 2, sharex=True, sharey=True).ravel()
+        for axes, metal in zip(panels, spectra.metals, strict=True):
+            own = albedos[albedos.metal == metal]
+            for wavelength, hue in zip(spectra.wavelengths, hues, strict=True):
+                points = own[own.wavelength == wavelength]
+                axes.plot(points.theta_deg, points.albedo, color=hue, label=f"{wavelength:g} nm")
+            band(axes, colours[colours.metal == metal])
+            axes.set_title(metal, loc="left", fontweight="bold")
+            axes.set(xlim=(0, 90), ylim=(0, 1.14))
+            axes.set_xticks(range(0, 91, 15))
+            axes.set_yticks([0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
+        for axes in panels[2:]:
+            axes.set_xlabel("incident angle θ (degrees)")
+        for axes in panels[::2]:
+            axes.set_ylabel("albedo a(θ)")
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside right center", title="wavelength")
+        return {kind: _saved(figure, kind) for kind in ("svg", "png")}
+
+
+BAND = (1.05, 1.13)
+"""Where a panel shows colours, above an albedo of 1."""
+
+
+def band(axes: Axes, colours: pd.DataFrame) -> None:
+    """The colour of the light reflected at each angle of incidence, half-way to the next."""
+    theta = colours.theta_deg.to_numpy()
+    borders = np.concatenate([[0.0], 0.5 * (theta[1:] + theta[:-1]), [90.0]])
+    low, high = BAND
+    axes.bar(borders[:-1], high - low, np.diff(borders), low, align="edge", color=colours.hex.tolist(), linewidth=0, zorder=3)
+    axes.bar(0.0, high - low, 90.0, low, align="edge", fill=False, edgecolor="#999999", linewidth=0.8, zorder=4)
 
 
 def against_angle(axes: Axes, plot: Plot, data: pd.DataFrame) -> None:
@@ -59,7 +101,6 @@ def against_angle(axes: Axes, plot: Plot, data: pd.DataFrame) -> None:
     axes.set(xlabel="incident angle θ (degrees)", ylabel="albedo a(θ)", xlim=(0, 91), ylim=(0, 1.1))
     axes.set_xticks(range(0, 91, 15))
     axes.set_yticks([0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
-    axes.legend(loc="lower left")
 
 
 def against_cosine(axes: Axes, plot: Plot, data: pd.DataFrame, printed: Sequence[tuple[float, float]]) -> None:

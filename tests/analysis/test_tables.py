@@ -22,11 +22,30 @@ def test_columns_of_albedo() -> None:
 
 def test_azimuth_is_reported_for_anisotropic_models_only() -> None:
     table = albedo("ward", theta_deg=60, phi_deg=[0, 90], m_x=0.1, m_y=0.3, method="quadrature")
-    assert list(table.columns)[:7] == ["model", "m", "m_x", "m_y", "scale", "theta_deg", "phi_deg"]
+    assert list(table.columns)[:9] == ["model", "form", "as_printed", "m", "m_x", "m_y", "scale", "theta_deg", "phi_deg"]
     assert table.phi_deg.tolist() == [0, 90]
     assert math.isnan(table.m[0])
     assert table.albedo[0] != table.albedo[1]
     assert "phi_deg" not in albedo("ward", theta_deg=60, phi_deg=[0, 90], m=0.1, method="quadrature")
+
+
+def test_choices_are_columns_and_members_with_other_parameters_leave_cells_empty() -> None:
+    table = albedo("lafortune", theta_deg=60, lobes=[1, 2], C_x=0.9, scale=1, method="quadrature")
+    parameters = ["C_x", "C_y", "C_z", "n", "C", "C_x_2", "C_y_2", "C_z_2", "n_2", "C_2"]
+    assert list(table.columns)[:15] == ["model", "lobes", *parameters, "scale", "theta_deg", "phi_deg"]
+    assert table.n_2.tolist() == [pytest.approx(math.nan, nan_ok=True), 20.0]
+
+
+def test_a_parameter_that_only_some_members_have_is_refused_by_the_others() -> None:
+    with pytest.raises(BadInput, match=r"n_2 = 5.*lafortune \(lobes = 1\)"):
+        albedo("lafortune", theta_deg=60, n_2=5)
+
+
+def test_a_dirac_part_is_in_every_quantity() -> None:
+    for method in ("quadrature", "rqmc", "mc"):
+        assert albedo("mirror", mu=[1.0, 1e-9], F=0.25, method=method).albedo.tolist() == pytest.approx([0.25, 0.25], abs=1e-8)
+        assert mean_albedo("mirror", F=0.25, method=method, tolerance=1e-3).mean_albedo[0] == pytest.approx(0.25, abs=1e-3)
+    assert normalise("mirror", F=0.25).constant[0] == pytest.approx(4.0)
 
 
 def test_columns_of_mean_albedo_and_normalise() -> None:

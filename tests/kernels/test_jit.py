@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -106,3 +107,24 @@ def test_an_unwritable_cache_costs_time_only(tmp_path: Path, monkeypatch: pytest
     blocked.write_text("no folder")
     monkeypatch.setenv("ALBEDO_LAB_CACHE", str(blocked))
     assert specialise(twice, number=lambda x: x - 1.0)(0.5) == -1.0
+
+
+class Named(NamedTuple):
+    """A field that bears the name of the function that reads it."""
+
+    doubled: float
+
+
+def doubled(p: Named) -> float:
+    return 2.0 * p.doubled
+
+
+answer = Placeholder("answer")
+
+
+def ask_once(x: float) -> float:
+    return answer(Named(x))  # type: ignore[no-any-return]
+
+
+def test_a_field_that_bears_the_name_of_a_function_is_no_call() -> None:
+    assert specialise(ask_once, answer=doubled)(3.0) == 6.0

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
-from itertools import chain, pairwise
+from itertools import chain, cycle, pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,7 +20,7 @@ from scipy.special import bdtr, chdtrc, stdtrit
 
 from albedo_lab.estimate.record import Estimate, Question, Tolerance
 from albedo_lab.estimate.sampling import GRAZING_SAMPLES, RESOLUTION
-from albedo_lab.model import Model, Parameter
+from albedo_lab.model import Choice, Count, File, Model, Parameter
 from albedo_lab.optics.coordinates import Axis
 from albedo_lab.optics.frame import Direction
 
@@ -131,15 +131,13 @@ def over_hemisphere(axis: Axis, wo: Direction, g: Callable[[Direction], float], 
 
     The radial variable is the logarithm of the angle's tangent: no lobe is too narrow for it. It ends at the
     horizon, and about the normal it is split where both cosines are equal. Good to 1e-5, but only to 1e-3 where a wide lobe has
-    a kink that is not split.
+    a kink that is not split. What lies more than a quarter turn from the mirror or the retro direction comes on top.
     """
-    phi = math.atan2(wo.y, wo.x)
-    mu, si = wo.z, math.hypot(wo.x, wo.y)
     lobe = axis in (Axis.MIRROR, Axis.RETRO)
-    away = -1.0 if axis == Axis.MIRROR else 1.0
+    mu, si = wo.z, math.hypot(wo.x, wo.y)
     total = 0.0
     for psi, d_psi in panels(0.0, 2.0 * PI, HALF_PI, turns):
-        c, s = math.cos(psi), math.sin(psi)
+        c = math.cos(psi)
         breaks = [finest]
         if axis == Axis.NORMAL:
             horizon = HALF_PI
@@ -149,22 +147,38 @@ def over_hemisphere(axis: Axis, wo: Direction, g: Callable[[Direction], float], 
         else:
             horizon = math.atan2(mu, -si * c) if c < 0.0 else HALF_PI
         breaks.append(math.tan(horizon) if horizon < HALF_PI - 1e-8 else 1e8)
-        for t, dt in chain.from_iterable(panels(math.log(a), math.log(b), 1.25, 6) for a, b in pairwise(breaks)):
-            angle = math.atan(math.exp(t))
-            sine, cosine = math.sin(angle), math.cos(angle)
-            measure = sine * sine * cosine * dt * d_psi
-            if lobe:
-                along, across = away * (si * cosine - mu * sine * c), sine * s
-                z = mu * cosine + si * sine * c
-            else:
-                along, across, z = sine * c, sine * s, cosine
-            if axis == Axis.HALF:
-                oh = si * along + mu * z
-                along, across, z = 2.0 * oh * along - si, 2.0 * oh * across, 2.0 * oh * z - mu
-                measure *= 4.0 * oh
-            if z > 0.0:
-                x, y = math.cos(phi) * along - math.sin(phi) * across, math.sin(phi) * along + math.cos(phi) * across
-                total += g(Direction(x, y, z)) * measure
+        total += d_psi * along_azimuth(axis, wo, g, psi, breaks)
+        if lobe and mu < 1e8 * si * c:
+            total += d_psi * along_azimuth(axis, wo, g, psi, [max(mu / (si * c), finest), 1e8], -1.0)
+    return total
+
+
+def along_azimuth(
+    axis: Axis, wo: Direction, g: Callable[[Direction], float], psi: float, breaks: list[float], side: float = 1.0
+) -> float:
+    """The integral over the angle from the axis, or with side = -1 from its opposite, between tangents, along one azimuth."""
+    phi = math.atan2(wo.y, wo.x)
+    mu, si = wo.z, math.hypot(wo.x, wo.y)
+    lobe = axis in (Axis.MIRROR, Axis.RETRO)
+    away = -1.0 if axis == Axis.MIRROR else 1.0
+    c, s = math.cos(psi), math.sin(psi)
+    total = 0.0
+    for t, dt in chain.from_iterable(panels(math.log(a), math.log(b), 1.25, 6) for a, b in pairwise(breaks)):
+        angle = math.atan(math.exp(t))
+        sine, cosine = math.sin(angle), math.cos(angle)
+        measure = sine * sine * cosine * dt
+        if lobe:
+            along, across = away * (si * side * cosine - mu * sine * c), sine * s
+            z = mu * side * cosine + si * sine * c
+        else:
+            along, across, z = sine * c, sine * s, cosine
+        if axis == Axis.HALF:
+            oh = si * along + mu * z
+            along, across, z = 2.0 * oh * along - si, 2.0 * oh * across, 2.0 * oh * z - mu
+            measure *= 4.0 * oh
+        if z > 0.0:
+            x, y = math.cos(phi) * along - math.sin(phi) * across, math.sin(phi) * along + math.cos(phi) * across
+            total += g(Direction(x, y, z)) * measure
     return total
 
 
@@ -190,23 +204,94 @@ def assert_close(value: float, expected: float, relative_error: float = 1e-4) ->
 # Densities and samples
 
 
-def parameter_sets(model: Model) -> list[Any]:
-    """Both ends of the domain and what lies between."""
-    values = {"albedo": (1.0,), "n": (0.0, 1.0, 20.0, 1e8), "m": (1e-4, 0.3, 1.0), "r": (1e-6, 0.1, 1.0)}
-    first = model.parameters[0].name
-    sets = [model.bind({first: value}) for value in values[first]]
-    return sets + ([model.bind({"m_x": 0.1, "m_y": 0.4})] if first == "m" else [])
+class Member(NamedTuple):
+    """A model, of a family the member chosen, and its parameters."""
+
+    model: Model
+    p: Any
 
 
-def moderate_sets(model: Model) -> list[tuple[Any, float]]:
-    """Parameters and cosines at which a histogram over the hemisphere resolves the lobe."""
-    cases: dict[str, list[tuple[dict[str, float], float]]] = {
-        "albedo": [({"albedo": 1.0}, 0.5)],
-        "n": [({"n": 1.0}, 0.8), ({"n": 20.0}, 0.2)],
-        "m": [({"m": 1.0}, 0.2), ({"m_x": 0.2, "m_y": 0.5}, 0.7)],
-        "r": [({"r": 1.0}, 0.2), ({"r": 0.1}, 0.7)],
+def member(model: Model, values: Mapping[str, Any]) -> Member:
+    """What the values, choices among them, make of a model."""
+    chosen, numbers = model.member(values)
+    return Member(chosen, chosen.bind(numbers))
+
+
+EXPONENTS = ({"n": 0.0}, {"n": 1.0}, {"n": 20.0}, {"n": 1e8})
+WIDTHS = ({"m": 1e-4}, {"m": 0.3}, {"m": 1.0}, {"m_x": 0.1, "m_y": 0.4})
+WIDE_WARD: list[tuple[dict[str, Any], float]] = [({"m": 1.0}, 0.2), ({"m_x": 0.2, "m_y": 0.5}, 0.7)]
+METAL = {"metal": "copper", "wavelength": 600.0}
+RETRO_LOBE = {"C_x_2": -0.9, "C_y_2": -0.9, "C_z_2": 0.9, "n_2": 200.0}
+SPECIMENS: dict[str, tuple[dict[str, Any], ...]] = {
+    **dict.fromkeys(("phong", "phong_original", "stretched_phong", "plus_phong", "product_phong", "sqrt_phong"), EXPONENTS),
+    **dict.fromkeys(("p_phong", "retro_phong", "blinn", "stretched_blinn", "plus_blinn"), EXPONENTS),
+    "lambert": ({"albedo": 1.0},),
+    "modified_ward": WIDTHS,
+    "ward": (*WIDTHS, {"form": "half_vector", "m": 1e-4}, {"form": "half_vector", "as_printed": "yes", "m_x": 0.2, "m_y": 1.0}),
+    "schlick_isotropic": ({"r": 1e-6}, {"r": 0.1}, {"r": 1.0}),
+    "schlick": (
+        {"r": 1e-6},
+        {"directional": "eq12", "spectral": "fresnel", "C": 0.3, "p": 0.1},
+        {"directional": "eq17", "r": 0.5, "as_printed": "yes", "p": 0.3},
+        {"directional": "eq18", "spectral": "fresnel", "layers": "double", "r": 1.0, "C_2": 1.0, "r_2": 0.3, "p_2": 0.5},
+    ),
+    "cook_torrance": (
+        {"m": 1e-4},
+        {"m": 0.3, "geometry": "smith", "fresnel": "exact"},
+        {"m": 1.0, "geometry": "none", "fresnel": "schlick"},
+        {"m": 0.5, "as_printed": "losasso", "fresnel": "exact"},
+        {"m": 0.5, "as_printed": "schlick1993", "geometry": "smith"},
+    ),
+    "he_torrance": ({}, {"sigma0": 5.0, "tau": 10.0, "fresnel": "one"}, {"sigma0": 0.01, "tau": 0.5, "a_d": 0.3}),
+    "oren_nayar": ({"sigma": 0.0}, {"sigma": 0.5}, {"form": "full", "sigma": 0.3}, {"form": "full", "sigma": 1.5}),
+    "minnaert": ({"k": 1.0}, {"k": 0.3}, {"as_printed": "yes", "k": 0.5}),
+    "blinn_trowbridge_reitz": ({"c": 0.01}, {"c": 0.5, "fresnel": "exact"}, {"c": 1.0, "as_printed": "yes"}),
+    "phong_blend": ({"n": 1.0}, {"n": 1e8, "d": 0.2}, {"n": 50.0, "as_printed": "yes"}),
+    "lafortune": ({}, {"C_x": 0.9, "C_y": 0.5, "n": 1000.0}, {"lobes": 2, **RETRO_LOBE}, {"C_z": -0.4, "n": 3.0}),
+    "stretched_lafortune": ({}, {"C_x": 0.9, "C_y": 0.5, "p": 0.5}, {"lobes": 2, **RETRO_LOBE}, {"C_z": -0.4, "n": 3.0}),
+    "metal": (
+        {"n": 0.0},
+        {"n": 1e8, **METAL},
+        {"n": 20.0, "angle": "theta_min", **METAL},
+        {"n": 20.0, "angle": "tabulated", **METAL},
+    ),
+    "plastic": ({}, {"n": 1e8, "a_d": 0.0}, {"fresnel": "one", "a_s": 0.0}, {"fresnel": "one", "n": 1.0}),
+    "microfacet": (
+        {"alpha": 1e-4},
+        {"alpha": 1.0, "G": "smith_correlated", "F": "dielectric", "diffuse": "refracted", "a_d": 0.5},
+        {"D": "beckmann", "m": 0.3, "F": "conductor"},
+        {"D": "beckmann", "m": 1e-4, "G": "v_cavity"},
+        {"D": "blinn_phong", "n": 20.0, "G": "none", "F": "schlick", "diffuse": "one_minus_fresnel", "a_d": 0.5},
+        {"D": "trowbridge_reitz", "alpha": 0.1, "G": "schlick", "as_printed": "yes"},
+        {"D": "gtr", "alpha": 0.3, "gamma": 1.5, "G": "smith", "diffuse": "lambert", "a_d": 0.5},
+    ),
+    "mirror": ({"F": 1.0}, {"F": 0.0}),
+}
+"""Of every model the ends of its domain and what lies between, and of a family members that differ; `merl` needs a file."""
+
+
+def specimens(model: Model) -> list[Member]:
+    """What the tests of all models try of this one."""
+    return [member(model, values) for values in SPECIMENS[model.name]]
+
+
+def moderate(model: Model) -> list[tuple[Member, float]]:
+    """Specimens and cosines at which a histogram over the hemisphere resolves the lobe."""
+    cases: dict[str, list[tuple[dict[str, Any], float]]] = {
+        **{name: [({"n": 1.0}, 0.8), ({"n": 20.0}, 0.2)] for name, values in SPECIMENS.items() if values == EXPONENTS},
+        "modified_ward": WIDE_WARD,
+        "ward": [({"form": "half_vector", "m_x": 0.3, "m_y": 1.0}, 0.4), *WIDE_WARD],
+        "schlick_isotropic": [({"r": 1.0}, 0.2), ({"r": 0.1}, 0.7)],
     }
-    return [(model.bind(values), mu) for values, mu in cases[model.parameters[0].name]]
+    if model.name in cases:
+        return [(member(model, values), mu) for values, mu in cases[model.name]]
+    wide = [values for values in SPECIMENS[model.name] if not any(is_narrow(name, x) for name, x in values.items())]
+    return [(member(model, values), mu) for values, mu in zip(wide, cycle((0.7, 0.2)), strict=False)]
+
+
+def is_narrow(name: str, value: Any) -> bool:
+    """Whether a parameter makes a lobe too narrow for a bin."""
+    return (name.startswith("n") and value > 300.0) or (name in ("m", "alpha", "r", "c") and value < 0.15)
 
 
 def accepted_by_density(model_pdf: Callable[..., float], axis: Axis, p: Any, mu: float) -> float:
@@ -321,10 +406,21 @@ def parameter_values(parameter: Parameter) -> strategies.SearchStrategy[float]:
     return strategies.sampled_from((parameter.low, parameter.default, parameter.high)) | within
 
 
-def bindings(model: Model) -> strategies.SearchStrategy[Any]:
-    """Parameters of the whole domain."""
-    own = {q.name: parameter_values(q) for q in model.parameters if not q.sets}
-    return strategies.fixed_dictionaries(own).map(model.bind)
+def bindings(model: Model) -> strategies.SearchStrategy[Member]:
+    """Any member of the family, and parameters of the whole domain."""
+
+    def of(chosen: Model) -> strategies.SearchStrategy[Member]:
+        own = {q.name: parameter_values(q) for q in chosen.parameters if not q.sets}
+        return strategies.fixed_dictionaries(own).map(lambda values: Member(chosen, chosen.bind(values)))
+
+    words = {choice.name: options(choice) for choice in model.choices}
+    return strategies.fixed_dictionaries(words).map(lambda values: model.member(values)[0]).flatmap(of)
+
+
+def options(choice: Choice | Count | File) -> strategies.SearchStrategy[Any]:
+    """The options of a choice; of a count the smallest few."""
+    assert not isinstance(choice, File)
+    return strategies.sampled_from(choice.options if isinstance(choice, Choice) else range(choice.low, choice.low + 3))
 
 
 def directions() -> strategies.SearchStrategy[Direction]:
@@ -346,46 +442,58 @@ def pairs(draw: Callable[..., Any]) -> tuple[Direction, Direction]:
 
 
 class Cell(NamedTuple):
-    """One albedo of reference.json."""
+    """One albedo of the stored oracle."""
 
     index: int
     name: str
-    parameters: tuple[tuple[str, float], ...]
+    parameters: tuple[tuple[str, Any], ...]
     mu: float
     phi: float
     order: str
     value: float
     error: float
+    family: bool
 
     def question(self, model: Model) -> Question:
         """The question whose answer is stored."""
-        return Question(model, model.bind(dict(self.parameters)), self.mu, self.phi, self.order)
+        return Question(*member(model, dict(self.parameters)), self.mu, self.phi, self.order)
 
 
 @cache
 def reference() -> tuple[Cell, ...]:
     """Every directional albedo of the stored oracle."""
-    stored = json.loads((Path(__file__).parents[1] / "oracles" / "reference.json").read_text())
+    oracles = Path(__file__).parents[1] / "oracles"
+    stored = json.loads((oracles / "reference.json").read_text())
+    plain = stored["albedo"] + stored["extreme"]
+    families = json.loads((oracles / "catalogue.json").read_text())
     return tuple(
         Cell(
             index,
             entry["model"],
             tuple(entry["parameters"].items()),
             entry["mu"],
-            math.radians(entry.get("phi_deg", 0.0)),
+            entry["phi"] if "phi" in entry else math.radians(entry["phi_deg"]),
             entry["order"],
             entry["value"],
             entry["error"],
+            index >= len(plain),
         )
-        for index, entry in enumerate(stored["albedo"] + stored["extreme"])
+        for index, entry in enumerate(plain + families)
     )
 
 
-def cells_of(name: str) -> list[Cell]:
-    """What the oracle knows of one model."""
+def cells_of(name: str, members: int = 1000) -> list[Cell]:
+    """What the oracle knows of one model, or of so many members of its family."""
     found = [cell for cell in reference() if cell.name == name]
-    assert found, f"reference.json has no cell of {name}"
-    return found
+    assert found, f"the oracle has no cell of {name}"
+    known = list(dict.fromkeys(words_of(cell) for cell in found))
+    several = known[:: -(-len(known) // members)]  # members that stand next to each other differ in one word only
+    return [cell for cell in found if words_of(cell) in several]
+
+
+def words_of(cell: Cell) -> tuple[tuple[str, Any], ...]:
+    """The choices of a cell."""
+    return tuple(pair for pair in cell.parameters if isinstance(pair[1], str) or pair[0] == "lobes")
 
 
 def relative(tolerance: float) -> Tolerance:

@@ -11,6 +11,10 @@ supremum        `supremum(model, **parameters) -> (value, error, theta_peak)` ov
 witness         the printed formulas, literally, in 50-digit arithmetic, for narrow lobes.
 make_reference  writes reference.json.
 
+formulas           the other models of the catalogue, written in angles from the papers: one file a family.
+catalogue_albedo   `albedo(model, parameters, mu, phi=0.0, order="wi") -> (value, error)` for them, Dirac part included.
+make_catalogue     writes catalogue.json (three minutes): model, parameters and choices, order, mu, phi (radians), value, error.
+
 reference.json
 --------------
 albedo    all 15 models, three parameter sets each (five for the Ward models, the anisotropic ones at three azimuths) at
