@@ -9,35 +9,47 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from albedo_lab.analysis.albedo import albedo
+    from albedo_lab.analysis.colour import colour
     from albedo_lab.analysis.mean_albedo import mean_albedo
     from albedo_lab.analysis.normalise import normalise
+    from albedo_lab.analysis.tabulate import tabulate
     from albedo_lab.catalogue import find, names
     from albedo_lab.errors import BadInput, Inconclusive
-    from albedo_lab.model import Model, Parameter, Reference
+    from albedo_lab.model import Choice, Count, File, Model, Parameter, Reference
 
 _HOME = {
     "albedo": "albedo_lab.analysis.albedo",
+    "colour": "albedo_lab.analysis.colour",
     "mean_albedo": "albedo_lab.analysis.mean_albedo",
     "normalise": "albedo_lab.analysis.normalise",
+    "tabulate": "albedo_lab.analysis.tabulate",
     "find": "albedo_lab.catalogue",
     "names": "albedo_lab.catalogue",
     "BadInput": "albedo_lab.errors",
     "Inconclusive": "albedo_lab.errors",
+    "Choice": "albedo_lab.model",
+    "Count": "albedo_lab.model",
+    "File": "albedo_lab.model",
     "Model": "albedo_lab.model",
     "Parameter": "albedo_lab.model",
     "Reference": "albedo_lab.model",
 }
 __all__ = [
     "BadInput",
+    "Choice",
+    "Count",
+    "File",
     "Inconclusive",
     "Model",
     "Parameter",
     "Reference",
     "albedo",
+    "colour",
     "find",
     "mean_albedo",
     "names",
     "normalise",
+    "tabulate",
 ]
 
 

@@ -187,6 +187,17 @@ def bound(model: Model, parameters: dict[str, list[Any]]) -> tuple[Model, Any]:
     return member, member.bind(rest)
 
 
+ELEVATIONS = together(
+    click.option(
+        "--theta-deg",
+        type=reals,
+        metavar="A,B,..",
+        help=f"Angles from the normal, in degrees. [default: {','.join(f'{theta:g}' for theta in THETA_DEG)}]",
+    ),
+    click.option("--mu", type=reals, metavar="A,B,..", help="Their cosines instead: near grazing only these keep their digits."),
+)
+
+
 def answer(
     question: Callable[..., pd.DataFrame],
     model: Model,
@@ -232,21 +243,13 @@ def show(model: Model, parameters: dict[str, list[Any]]) -> None:
 
 @main.command()
 @ESTIMATE
-@click.option(
-    "--theta-deg",
-    type=reals,
-    metavar="A,B,..",
-    help=f"Angles from the normal, in degrees. [default: {','.join(f'{theta:g}' for theta in THETA_DEG)}]",
-)
-@click.option("--mu", type=reals, metavar="A,B,..", help="Their cosines instead: near grazing only these keep their digits.")
+@ELEVATIONS
 @click.option("--phi-deg", type=reals, metavar="A,B,..", help="Azimuths, in degrees, for anisotropic models. [default: 0]")
 def albedo(mu: list[Any] | None, theta_deg: list[Any] | None, **options: Any) -> None:
     """Directional albedo. Which share of the light from one direction comes back."""
     from albedo_lab.analysis.albedo import albedo as question
 
-    if mu is None and theta_deg is None:
-        theta_deg = list(THETA_DEG)
-    answer(question, mu=mu, theta_deg=theta_deg, **options)
+    answer(question, mu=mu, theta_deg=theta_deg or (None if mu else list(THETA_DEG)), **options)
 
 
 @main.command("mean-albedo")
@@ -265,6 +268,38 @@ def normalise(**options: Any) -> None:
     from albedo_lab.analysis.normalise import normalise as question
 
     answer(question, **options)
+
+
+@main.command()
+@ESTIMATE
+@ELEVATIONS
+@click.option("--illuminant", type=click.Choice(["D65", "E"]), default="D65", show_default=True)
+def colour(mu: list[Any] | None, theta_deg: list[Any] | None, **options: Any) -> None:
+    """The albedo as a colour. XYZ and sRGB of what a metal reflects, from its albedo at several wavelengths."""
+    from albedo_lab.analysis.colour import colour as question
+
+    answer(question, mu=mu, theta_deg=theta_deg or (None if mu else list(THETA_DEG)), **options)
+
+
+@main.command()
+@MODEL
+@PARAMETERS
+@click.option(
+    "-o", "--output", required=True, metavar="FILE", callback=writable, help="A .binary file; written whole or not at all."
+)
+def tabulate(model: Model, parameters: dict[str, list[Any]], output: Path | None) -> None:
+    """A model as a table. Writes a file of the MERL format, for whatever reads measured surfaces.
+
+    Three values of one parameter stand for red, green and blue.
+    """
+    from albedo_lab.analysis.tabulate import tabulate as write_table
+
+    if output is None:
+        raise BadInput("output", "-", "must be a file: a table is 35 MB of binary numbers")
+    bound(model, parameters)
+    with progress_bar() as progress:
+        frame = write_table(model, output, progress=progress, **parameters)
+    emit(format_table(frame, "table"), None)
 
 
 @main.command()
@@ -298,9 +333,9 @@ def description(model: Model) -> Iterator[str]:
     if model.choices:
         yield from ("", "choices")
         yield from entries(*((choice.name, selection(choice, model.chosen.get(choice.name))) for choice in model.choices))
-    yield from ("", "parameters")
+    yield from ("", "parameters") if model.parameters else ()
     yield from entries(*((parameter.name, meaning(parameter)) for parameter in model.parameters))
-    yield from ("", "claims")
+    yield from ("", "claims") if model.claims else ()
     yield from entries(*((claim.place, statement(claim, model)) for claim in model.claims))
 
 

@@ -153,11 +153,21 @@ def test_errors_while_computing(folder, monkeypatch, error, status, lines):
     [
         (
             ["albedo", "ward", "-p", "m_x=0.1,0.2", "--theta-deg", "0,89.999", "--phi-deg", "45"],
-            ["m", "m_x", "m_y", "scale", "theta_deg", "phi_deg", "albedo", *FIGURES, *EXPLAINED, "order"],
+            [
+                *["form", "as_printed", "m", "m_x", "m_y", "scale", "theta_deg", "phi_deg"],
+                "albedo",
+                *FIGURES,
+                *EXPLAINED,
+                "order",
+            ],
         ),
         (
             ["albedo", "phong", "--mu", "0.5"],
             ["n", "scale", "theta_deg", "albedo", *FIGURES, *EXPLAINED, "order"],
+        ),
+        (
+            ["albedo", "metal", "-p", "metal=gold", "-p", "wavelength=400,450", "--theta-deg", "0"],
+            ["metal", "angle", "n", "wavelength", "scale", "theta_deg", "albedo", *FIGURES, *EXPLAINED, "order"],
         ),
         (["mean-albedo", "p_phong"], ["n", "p", "scale", "mean_albedo", *FIGURES, *EXPLAINED, "order"]),
         (
@@ -172,6 +182,68 @@ def test_columns(arguments, columns):
     assert read.stdout.splitlines()[0].split(",") == ["model", *columns]
     records = json.loads(run(*arguments, *QUICK, "--format", "json").stdout)
     assert all(list(record) == list(dict.fromkeys(["model", *columns])) for record in records)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["albedo", "metal", "-p", "metal=tin"], ["metal = 'tin'", "gold, silver, copper, aluminium"]),
+        (["albedo", "metal", "-p", "metal=gold", "-p", "wavelength=1000"], ["wavelength = 1000.0", "[380, 780]"]),
+        (["albedo", "metal", "-p", "metal=gold", "-p", "eta=1"], ["eta = 1.0", "metal = gold", "wavelength"]),
+        (["albedo", "phong_blend", "-p", "as_printed=maybe"], ["as_printed = 'maybe'", "no, yes"]),
+        (["albedo", "phong_blend", "-p", "as_printed=1"], ["as_printed = 1.0", "no, yes"]),
+        (["albedo", "lafortune", "-p", "lobes=0"], ["lobes = 0.0", "[1, 100]"]),
+        (["albedo", "lafortune", "-p", "lobes=many"], ["lobes = 'many'", "[1, 100]"]),
+        (["show", "lafortune", "-p", "n_2=3"], ["n_2 = 3.0", "lobes = 1"]),
+        (["albedo", "merl"], ["file", "must be given"]),
+        (["albedo", "missing.binary"], ["file = 'missing.binary'", "No such file"]),
+        (["show", "short.binary"], ["file = 'short.binary'", "34992012"]),
+        (["colour", "metal"], ["custom", "wavelength"]),
+        (["colour", "metal", "-p", "metal=gold", "-p", "wavelength=500"], ["wavelength", "at least 2"]),
+        (["tabulate", "phong"], ["-o"]),
+        (["tabulate", "phong", "-o", "-"], ["output = '-'"]),
+        (["tabulate", "ward", "-p", "m_x=0.3", "-o", "x.binary"], ["ward", "anisotropic"]),
+        (["tabulate", "mirror", "-o", "x.binary"], ["mirror"]),
+        (["tabulate", "phong", "-p", "n=1,2", "-o", "x.binary"], ["n", "three"]),
+    ],
+)
+def test_bad_members(folder, arguments, said):
+    """What families, measurements and colours refuse, before anything is written."""
+    (folder / "short.binary").write_bytes(b"short")
+    assert_refused(run(*arguments), 2, *said)
+    assert [path.name for path in folder.iterdir()] == ["short.binary"]
+
+
+def test_a_formula_and_its_table_go_through_the_same_door(folder):
+    """Three exponents as red, green and blue of one file, whose channels are then three rows."""
+    made = run("tabulate", "stretched_phong", "-p", "n=1,4,20", "-o", "x.binary")
+    assert (made.exit_code, made.stderr) == (0, "")
+    of_table, of_formula = (
+        pd.read_csv(io.StringIO(run("albedo", *asked, "--theta-deg", "45", "--tolerance", "1e-4", "--format", "csv").stdout))
+        for asked in (["x.binary"], ["stretched_phong", "-p", "n=1,4,20"])
+    )
+    assert of_table.channel.tolist() == ["red", "green", "blue"]
+    assert of_table.albedo.tolist() == pytest.approx(of_formula.albedo.tolist(), rel=2e-3)  # what a cell of a degree blurs
+    assert of_table.albedo.tolist() != pytest.approx(sorted(of_formula.albedo, reverse=True), rel=2e-3)
+
+
+def test_colour():
+    shown = run("colour", "metal", "-p", "metal=gold", "-p", "n=1e4", "--theta-deg", "0", "--method", "quadrature")
+    assert "#ffdca5" in shown.stdout
+    assert "standard_error" not in shown.stdout
+    read = pd.read_csv(
+        io.StringIO(run("colour", "metal", "-p", "metal=gold,silver", "--mu", "0.5", *QUICK, "--format", "csv").stdout)
+    )
+    assert read.metal.tolist() == ["gold", "silver"]
+    assert (read.R > read.B).tolist() == [True, True]
+
+
+def test_show_of_a_member():
+    family, member = run("show", "metal").stdout, run("show", "metal", "-p", "metal=gold").stdout
+    assert "custom, gold, silver, copper, aluminium, default custom" in family
+    assert "eta" in family.partition("\nparameters")[2]
+    assert "here gold" in member
+    assert "in [380, 780] nm" in member
 
 
 def test_csv_holds_every_bit():
@@ -205,10 +277,12 @@ def test_status_of_the_process():
 
 @pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["list"], ["list", "--format", "json"], ["show", "ward"]])
 def test_starts_light(arguments):
+    """The list reads every model's file, of which some hold tables of numbers: numpy, but nothing heavier."""
+    heavy = {"numba", "pandas", "scipy", "matplotlib"} | (set() if "list" in arguments else {"numpy"})
     code = (
         "import sys; from albedo_lab.cli import main\n"
         f"try: main({arguments})\n"
-        "finally: sys.stderr.write(' '.join({'numpy', 'numba', 'pandas', 'scipy', 'matplotlib'} & set(sys.modules)))"
+        f"finally: sys.stderr.write(' '.join({heavy} & set(sys.modules)))"
     )
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
     assert result.stdout

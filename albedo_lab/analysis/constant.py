@@ -7,16 +7,23 @@ from dataclasses import replace
 from typing import Any
 
 from albedo_lab.analysis.supremum import supremum
+from albedo_lab.errors import BadInput
 from albedo_lab.estimate.record import NORMAL_975, Estimate, bounded, exact
 from albedo_lab.model import Maximum, Model
 
 
 def constant(model: Model, p: Any, given: float | None) -> Estimate:
-    """The constant `scale` of a model: as given, as its source prescribes, or the largest that energy balance allows."""
+    """The constant `scale` of a model: as given, as its source prescribes, or the largest that energy balance allows.
+
+    Raises BadInput for a shape without light, of which no constant is the largest.
+    """
     if given is not None:
         return exact(given)
     if isinstance(model.scale, Maximum):
-        return largest_constant(supremum(model, p).value)
+        largest = largest_constant(supremum(model, p).value)
+        if math.isinf(largest.value):
+            raise BadInput("scale", largest.value, f"must be given: {model.title} reflects nothing, whatever its constant")
+        return largest
     return exact(model.scale(p))
 
 

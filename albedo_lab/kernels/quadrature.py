@@ -35,6 +35,8 @@ NOISE = 2.0**-50
 EPSILON = 2.0**-52
 NARROW = 50.0
 """From this exponent on, nothing of a lobe (2^-50 at 60 degrees) is left where the circle of equal cosines enters it."""
+FAR = 1e15
+"""A slope that is a right angle."""
 SAFETY = 2.0
 OUTER_SHARE = 0.3
 INNER_SHARE = 0.1
@@ -213,7 +215,9 @@ def radial(tolerance, work, lanes, p, n, frame, ray):
     `work` holds the panels: a, b, low, high, value, error.
     """
     near, far = horizon(ray.c, frame)
-    near, far = min(coordinate(near / ray.d, n), END), min(coordinate(far / ray.d, n), END)
+    # of a lobe about an axis below the horizon only the far side is seen, and what counts of it ends END beyond its rim
+    near = coordinate(near / ray.d, n) if near < FAR else np.inf
+    far = min(coordinate(far / ray.d, n), sqrt(END * END + near * near))
     if not near < far:
         return 0.0, 0.0, 0
     count = 0

@@ -94,7 +94,7 @@ CHOICES = (
     Choice("fresnel", "reflectance of the facets: 1, Schlick's approximation, or that of a complex index", tuple(FRESNEL), "one"),
     Choice(
         "as_printed",
-        "with the misprints of a source: of losasso those of F, of schlick1993 that of Smith's G, which is then the geometry",
+        "with the misprints of a source: of losasso those of F, of schlick1993 that of Smith's G; nothing else is printed wrong",
         ("no", "losasso", "schlick1993"),
         "no",
     ),
@@ -137,10 +137,9 @@ def widths(p: CookTorrance) -> tuple[float, float]:
 @cache
 def make(*, geometry: str, fresnel: str, as_printed: str) -> Model:
     """One geometry and one reflectance of the facets, correct or as a source prints it."""
-    geometry = "smith" if as_printed == "schlick1993" else geometry
     swapped = (as_printed, fresnel) == ("losasso", "schlick")
     misprinted = (as_printed, fresnel) == ("losasso", "exact")
-    G = printed_smith if as_printed == "schlick1993" else GEOMETRIES[geometry](NORMALS)
+    G = printed_smith if (as_printed, geometry) == ("schlick1993", "smith") else GEOMETRIES[geometry](NORMALS)
     if swapped:
         evaluate = losasso_schlick(geometry)
     else:

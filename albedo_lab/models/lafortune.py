@@ -74,15 +74,19 @@ def energy(q: Any, wo: Direction) -> Any:
 def mixture(count: int, lobe: Callable[..., Any], energy: Callable[..., float]) -> tuple[Callable[..., Any], Callable[..., Any]]:
     """Sampler and density: a lobe chosen by its energy, and the cosine where none has any; `lobe(p, i)` is one of them."""
 
+    def share(q: Any, wo: Direction) -> Any:
+        light = energy(q, wo)
+        return light if light > TINY else 0.0  # no quotient of two of them overflows
+
     def sample(p: Any, wo: Direction, u1: float, u2: float) -> Direction:
         total = 0.0
         for i in range(count):
-            total += energy(lobe(p, i), wo)
+            total += share(lobe(p, i), wo)
         rest = u1 * total
         chosen, u, below = lobe(p, 0), u1, 0.0
         for i in range(count):  # the last lobe that begins below `rest`; no break, so that samples fill SIMD lanes
             q = lobe(p, i)
-            part = energy(q, wo)
+            part = share(q, wo)
             if part > 0.0 and rest >= below:
                 chosen, u = q, (rest - below) / part
             below += part
@@ -95,7 +99,7 @@ def mixture(count: int, lobe: Callable[..., Any], energy: Callable[..., float]) 
         total, density = 0.0, 0.0
         for i in range(count):
             q = lobe(p, i)
-            part, (axis, _) = energy(q, wo), upper_lobe(q, wo)
+            part, (axis, _) = share(q, wo), upper_lobe(q, wo)
             total += part
             density += part * lobe_pdf(axis, wi, q.n)
         return density / total if total > 0.0 else max(wi.z, 0.0) / pi
@@ -185,6 +189,7 @@ SMALLEST = 2.0**-50
 """Farther out a wide lobe's samples could not be told from the plane a quarter turn from its axis, where its density is 0."""
 FIELDS = ("C_x", "C_y", "C_z", "n", "C", "p")
 LOBES = Count("lobes", "number of lobes", default=1, low=1, high=100)
+# 1.4^1000 is as large as f may become if the squares that a standard deviation sums are to stay finite
 FACTORS = (
     Parameter("C_x", "factor of R_x V_x in the lobe", default=1.0, low=-1.4, high=1.4),
     Parameter("C_y", "factor of R_y V_y in the lobe", default=1.0, low=-1.4, high=1.4),

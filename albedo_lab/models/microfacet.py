@@ -234,6 +234,9 @@ def completion(D: str, F: str, as_printed: str) -> Callable[[Mapping[str, float]
     return complete
 
 
+SCHLICK_FITS = "eq. 7 of schlick1993, at grazing angles 1 / sqrt(8) of Smith's masking of the facets that face the direction"
+
+
 def references(D: str, G: str, F: str, diffuse: str, as_printed: str) -> tuple[Reference, ...]:
     """The page, and what it leaves out."""
     notes = []
@@ -250,7 +253,9 @@ def references(D: str, G: str, F: str, diffuse: str, as_printed: str) -> tuple[R
         ),
         "schlick": (
             schlick1994(
-                "the geometrical attenuation", "the fit to Smith's masking of beckmann with m = alpha, or sqrt(2 / (n+2))"
+                "the geometrical attenuation",
+                "for beckmann; else with m = alpha, or sqrt(2 / (n+2))",
+                f"fitted to {SCHLICK_FITS}",
             ),
         ),
     }

@@ -98,15 +98,12 @@ DIRECTIONAL = {
 }
 
 
-# The share of the samples that follow the lobe, where v is the cosine of the direction that does not move
+# The share of the samples that follow the lobe, where v is the cosine of the direction that does not move. The diffuse term of
+# eq. 17 needs no others: r A / pi is at most 8 times their density, since Z is nowhere below r
 
 
 def all_to_lobe(r: float, v: float) -> float:
     return 1.0
-
-
-def smooth_to_lobe(r: float, v: float) -> float:
-    return 1.0 - r
 
 
 def unobstructed_to_lobe(r: float, v: float) -> float:
@@ -114,7 +111,7 @@ def unobstructed_to_lobe(r: float, v: float) -> float:
     return (1.0 - r) * G(r, v)
 
 
-TO_LOBE = {"eq12": all_to_lobe, "eq15": all_to_lobe, "eq17": smooth_to_lobe, "eq18": unobstructed_to_lobe}
+TO_LOBE = {"eq12": all_to_lobe, "eq15": all_to_lobe, "eq17": all_to_lobe, "eq18": unobstructed_to_lobe}
 
 
 # Coordinates: in azimuth both terms have the ellipse that A is sampled by
@@ -185,9 +182,14 @@ def make(*, layers: str, spectral: str, directional: str, as_printed: str) -> Mo
     to_lobe = TO_LOBE[directional]
     parameters_type = Single if layers == "single" else Double
     formula = LAYERS[layers].format("D") + ", D = " + FORMULA[directional]
-    source = schlick1993(
-        f"eq. 9, {'10' if spectral == 'constant' else '11'}, {directional[2:]}, 14", *(DEVIATIONS if as_printed == "no" else ())
+    equations = (
+        "9",
+        "10" if spectral == "constant" else "11",
+        "14",
+        directional[2:],
+        *(("16",) if lobe_weight is unobstructed else ()),
     )
+    source = schlick1993("eq. " + ", ".join(equations), *(DEVIATIONS if as_printed == "no" else ()))
 
     def u(wi: Direction, wo: Direction) -> float:
         return 0.5 * length(bisector(wi, wo))
@@ -218,8 +220,8 @@ def make(*, layers: str, spectral: str, directional: str, as_printed: str) -> Mo
         return S_upper(p, u(wi, wo)) * D(upper(p), wi, wo) + S_lower(p, u(wi, wo)) * D(lower(p), wi, wo)  # eq. 9
 
     def sample_single(p: Single, wo: Direction, u1: float, u2: float) -> Direction:
-        # normals for the diffuse term, too, since A makes it follow them: evenly spread ones, lest its share of the lobe's far tail
-        # weigh much. It is u2 that chooses, since u1 tells how far out a sample lies, and estimators rely on its order
+        # normals for the diffuse term, too, since A makes it follow them: evenly spread ones. It is u2 that chooses: u1 tells how
+        # far out a sample lies, and estimators rely on its order
         share = to_lobe(p.r, wo.z)
         slope = slope_of_lobe(p.r, u1) if u2 < share else slope_of_hemisphere(u1)
         return reflect(wo, normal_of_slope(slope, p.p, u2 / share if u2 < share else (u2 - share) / (1.0 - share)))

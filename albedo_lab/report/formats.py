@@ -19,6 +19,8 @@ Rows = Sequence[Sequence[object]]
 ERROR = ("standard_error", "ci95_low", "ci95_high")
 """What follows a quantity. A person is shown half of the interval instead, beside the quantity."""
 HALF_WIDTH = "± 95 %"
+WIDEST = "half_width"
+"""Where several quantities stand beside each other, as the components of a colour do, the half-width of the widest interval."""
 
 MARKDOWN = str.maketrans({"|": r"\|"})
 LATEX = str.maketrans(
@@ -110,9 +112,18 @@ def readable(names: Sequence[str], rows: Rows) -> list[Column]:
     """The columns for a person: a quantity with the digits that its interval justifies, and half of that interval."""
     values: dict[str, list[Any]] = {name: [row[i] for row in rows] for i, name in enumerate(names)}
     quantity = names[names.index(ERROR[0]) - 1] if ERROR[0] in names else None
+    several = [name for name in names if f"{name}_{ERROR[0]}" in names]
     columns = []
     for name, column in values.items():
-        if name == quantity:
+        if name in several:
+            widths = values[WIDEST]
+            cells = [justified(value, value - width, value + width)[0] for value, width in zip(column, widths, strict=True)]
+            columns.append(Column(name, cells, numeric=True, figure=True))
+        elif several and name == WIDEST:
+            columns.append(Column(HALF_WIDTH, [f"{width:.2g}" for width in column], numeric=True, figure=True))
+        elif several and (name.endswith(ERROR[0]) or name.startswith("encoded_")):
+            continue  # the interval, and the hexadecimal colour, tell a person enough
+        elif name == quantity:
             pairs = [justified(*figure) for figure in zip(column, values[ERROR[1]], values[ERROR[2]], strict=True)]
             columns.append(Column(name, [value for value, _ in pairs], numeric=True, figure=True))
             columns.append(Column(HALF_WIDTH, [half_width for _, half_width in pairs], numeric=True, figure=True))

@@ -41,6 +41,13 @@ def test_a_parameter_that_only_some_members_have_is_refused_by_the_others() -> N
         albedo("lafortune", theta_deg=60, n_2=5)
 
 
+def test_a_shape_without_light_has_no_largest_constant() -> None:
+    assert normalise("lafortune", C=0.0).constant[0] == math.inf
+    assert albedo("lafortune", theta_deg=60, C=0.0, scale=1).albedo[0] == 0.0
+    with pytest.raises(BadInput, match=r"scale = inf: must be given.*reflects nothing"):
+        albedo("lafortune", theta_deg=60, C=0.0)
+
+
 def test_a_dirac_part_is_in_every_quantity() -> None:
     for method in ("quadrature", "rqmc", "mc"):
         assert albedo("mirror", mu=[1.0, 1e-9], F=0.25, method=method).albedo.tolist() == pytest.approx([0.25, 0.25], abs=1e-8)

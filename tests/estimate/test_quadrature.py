@@ -67,6 +67,23 @@ def test_every_mean_lies_within_its_bound(name: str) -> None:
             assert abs(found.value - cell["value"]) <= found.half_width + cell["error"], cell
 
 
+def test_a_lobe_whose_axis_lies_far_below_the_horizon_is_not_lost() -> None:
+    """All that is seen of it is its rim; found by plain integration of the formula in tests/models/trial.py's angles."""
+    model = find("lafortune")
+    p = model.bind({"C_z": -1.0, "n": 200.0})
+    found = quadrature(Question(model, p, 0.7), Tolerance(0.0, 1e-6))
+
+    def along(z: float) -> float:
+        s = math.sqrt((1.0 - z * z) * (1.0 - 0.49))
+        phi = 2.0 * np.pi * (np.arange(4096) + 0.5) / 4096
+        return float(np.mean(np.maximum(s * np.cos(phi) - 0.7 * z, 0.0) ** 200.0)) * 2.0 * np.pi * z
+
+    z = np.linspace(0.0, 0.2, 20001)
+    expected = float(np.sum([along(x) for x in z])) * (z[1] - z[0])
+    assert 0.0 < expected < 1e-20
+    assert found.value == pytest.approx(expected, rel=1e-4)
+
+
 def test_the_mean_of_an_anisotropic_model_runs_over_all_azimuths() -> None:
     model = find("modified_ward")
     question = Question(model, model.bind({"m_x": 0.1, "m_y": 0.4}), None)

@@ -76,6 +76,8 @@ def test_samples_follow_the_density(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_weights_are_at_most_1() -> None:
+    assert MODEL.sample is not None
+    assert MODEL.pdf is not None
     for c, mu in product((1e-3, 0.1, 1.0), (1.0, 0.5, 1e-3, 1e-9, 1e-12)):
         p, wo = Blinn(c), trial.at(mu, 0.4)
         for u1, u2 in product((1e-12, 0.2, 0.6, 0.999999), (1e-9, 0.3, 0.8)):

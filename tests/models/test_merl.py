@@ -145,7 +145,7 @@ def test_rings_follow_the_light() -> None:
     """All mass of a narrow lobe lies within a few of its widths; a black surface still has a density."""
     few_widths = np.searchsorted(NARROW.heights, 1.0 - math.cos(0.06))
     assert NARROW.cumulative[few_widths] > 0.999
-    assert np.allclose(surface(np.zeros(SHAPE)).density, 1.0 / (2.0 * math.pi), rtol=0.5)
+    assert np.allclose(surface(np.zeros(SHAPE)).density, 1.0 / (2.0 * math.pi), rtol=1e-12)
 
 
 @every_surface

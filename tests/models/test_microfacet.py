@@ -45,14 +45,14 @@ def D(name: str, t: float, as_printed: bool = False) -> float:
     q = a * a * t * t + 1 - t * t
     constant = a * a / PI
     if name == "blinn_phong":
-        return 22 / (2 * PI) * t**20
+        return 11 / PI * math.pow(t, 20)
     if name == "beckmann":
         return math.exp((1 - 1 / (t * t)) / (a * a)) / (PI * a * a * t**4)
     if name == "ggx":
         return a * a / (PI * q * q)
     if name == "trowbridge_reitz":
         return (constant if as_printed else (1 - a * a) / (PI * math.log(1 / (a * a)))) / q
-    return (constant if as_printed else 0.5 * (1 - a * a) / (PI * (1 / a - 1))) / q**1.5
+    return (constant if as_printed else 0.5 * (1 - a * a) / (PI * (1 / a - 1))) / math.pow(q, 1.5)
 
 
 def printed(name: str, G: Callable[..., float], F: Callable[[float], float], as_printed: bool = False) -> trial.Formula:
@@ -206,6 +206,8 @@ def test_density_is_normalised(name: str, geometry: str, diffuse: str) -> None:
         if diffuse == "none":
             trial.assert_normalised(model, model.bind(NUMBERS[name]), mu)
         else:
+            assert model.sample is not None
+            assert model.pdf is not None
             density = trial.accepted_by_density(model.pdf, Axis.HALF, model.bind(NUMBERS[name]), mu)
             assert abs(density - trial.accepted_by_sampler(model.sample, model.bind(NUMBERS[name]), mu)) < 4e-3
 
@@ -253,6 +255,8 @@ def test_visible_normals_leave_only_the_masking_of_the_light(name: str) -> None:
     for numbers, mu in product(ENDS[name], (1.0, 0.5, 1e-4, 1e-9)):
         for geometry in ("smith", "smith_correlated"):
             model = member(D=name, G=geometry)
+            assert model.sample is not None
+            assert model.pdf is not None
             p, wo = model.bind(numbers), trial.at(mu, 0.4)
             for u1, u2 in product((1e-9, 0.3, 0.8), (0.1, 0.6)):
                 wi = model.sample(p, wo, u1, u2)

@@ -7,8 +7,9 @@ import math
 import pytest
 from scipy.integrate import quad
 
-from albedo_lab.models.modified_ward import MODEL, Ward, evaluate
+from albedo_lab.models.modified_ward import MODEL, evaluate
 from albedo_lab.models.ward import MODEL as WARD
+from albedo_lab.models.ward import Ward
 from tests.models import trial
 
 WIDTHS = (0.05, 0.3, 1.0)

@@ -472,7 +472,7 @@ def reference() -> tuple[Cell, ...]:
             entry["model"],
             tuple(entry["parameters"].items()),
             entry["mu"],
-            entry["phi"] if "phi" in entry else math.radians(entry["phi_deg"]),
+            entry["phi"] if "phi" in entry else math.radians(entry.get("phi_deg", 0.0)),
             entry["order"],
             entry["value"],
             entry["error"],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import pairwise, product
 
 import mpmath
@@ -31,13 +32,13 @@ def gtr(alpha: float, gamma: float) -> Density:
 def distributions() -> Iterator[tuple[str, Density, Callable[[float], float]]]:
     """Name, D, and the slope of a survival."""
     for n in EXPONENTS:
-        yield f"blinn_phong {n}", lambda v, n=n: normals.blinn_phong(n, v), lambda u, n=n: normals.blinn_phong_slope(n, u)
+        yield f"blinn_phong {n}", partial(normals.blinn_phong, n), partial(normals.blinn_phong_slope, n)
     for a in ALPHAS:
-        yield f"beckmann {a}", lambda v, a=a: normals.beckmann(a, v), lambda u, a=a: normals.beckmann_slope(a, u)
-        yield f"ggx {a}", lambda v, a=a: normals.ggx(a, v), lambda u, a=a: normals.ggx_slope(a, u)
+        yield f"beckmann {a}", partial(normals.beckmann, a), partial(normals.beckmann_slope, a)
+        yield f"ggx {a}", partial(normals.ggx, a), partial(normals.ggx_slope, a)
         for gamma in GAMMAS:
             t = normals.tails(a, gamma)
-            yield f"gtr {a} {gamma}", gtr(a, gamma), lambda u, t=t: normals.gtr_slope(t.L, t.g, t.E, u)
+            yield f"gtr {a} {gamma}", gtr(a, gamma), partial(normals.gtr_slope, t.L, t.g, t.E)
 
 
 def share_of_slopes(D: Density, low: float, high: float) -> float:
