@@ -60,7 +60,8 @@ def supremum(model: Model, p: Any, order: str = "wi") -> Supremum:
 
     def at(t: float, azimuth: float, relative: float) -> Estimate:
         nonlocal samples
-        found = quadrature(Question(model, p, 1.0 / math.cosh(t), azimuth, order), Tolerance(0.0, relative))
+        within = Tolerance(0.0, max(relative, model.smooth_in.finest))
+        found = quadrature(Question(model, p, 1.0 / math.cosh(t), azimuth, order), within)
         samples += found.samples
         return found
 
@@ -91,7 +92,8 @@ def supremum(model: Model, p: Any, order: str = "wi") -> Supremum:
 
 def grazing_limit(model: Model, p: Any, phi: float, order: str) -> Estimate:
     """lim a(mu) as mu -> 0, with the error of the extrapolation; infinite where the albedo still grows over the last decades."""
-    a = [quadrature(Question(model, p, mu, phi, order), Tolerance(0.0, COARSE)) for mu in GRAZING]
+    within = Tolerance(0.0, max(COARSE, model.smooth_in.finest))
+    a = [quadrature(Question(model, p, mu, phi, order), within) for mu in GRAZING]
     before, after = a[1].value - a[0].value, a[2].value - a[1].value
     noise = sum(e.half_width for e in a)
     samples = sum(e.samples for e in a)

@@ -54,6 +54,7 @@ lobe = Placeholder("lobe")
 AXIS = Placeholder("AXIS")
 END = Placeholder("END")
 KINK = Placeholder("KINK")
+PIECES = Placeholder("PIECES")
 
 
 class Frame(NamedTuple):
@@ -331,8 +332,9 @@ def integrate(values, mu, phi, symmetric, tolerance, relative, answer):
     work = np.empty((INNER_PANELS, 6))
     lanes = np.empty(LANES)
     panels = np.empty((OUTER_PANELS, 5))
-    panels[0, 0], panels[0, 1] = 0.0, 1.0
-    count = 1
+    for i in range(PIECES):
+        panels[i, 0], panels[i, 1] = i / PIECES, (i + 1.0) / PIECES
+    count = PIECES
     entering = KINK == EQUAL_COSINES and (AXIS == MIRROR or AXIS == RETRO) and exponent(p) < NARROW
     if (entering or KINK == V_CAVITY) and mu < si:
         # where the azimuth's cosine is mu / si, equal cosines enter the lobe's hemisphere, or V-cavities begin to mask
@@ -399,4 +401,5 @@ def quadrature_kernel(model: Model, order: str = "wi") -> Callable[..., Any]:
         AXIS=int(coordinates.axis),
         END=coordinates.profile.end,
         KINK=int(coordinates.kink),
+        PIECES=coordinates.pieces,
     )

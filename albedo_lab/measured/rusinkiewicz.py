@@ -24,8 +24,8 @@ class HalfDifference(NamedTuple):
 def half_difference(wi: Direction, wo: Direction) -> HalfDifference:
     """The angles of a pair of directions, light and viewer in either order.
 
-    v = wi + wo points to the half-vector, u = wi - wo is normal to it: tan(theta_d) = |u| / |v|, and phi_d is the azimuth of u from
-    the tangent (v_x v_z, v_y v_z, -v_xy^2). No angle is ever taken from a cosine. phi_d is 0 or pi/2 where it has no meaning.
+    v = wi + wo points to the half-vector, u = wi - wo is normal to it: tan(theta_d) = |u| / |v|, and phi_d is the azimuth of u
+    from the tangent (v_x v_z, v_y v_z, -v_xy^2). No angle is taken from a cosine. phi_d is 0 or pi/2 where it has no meaning.
     """
     vx, vy, vz = wi.x + wo.x, wi.y + wo.y, wi.z + wo.z
     ux, uy, uz = wi.x - wo.x, wi.y - wo.y, wi.z - wo.z

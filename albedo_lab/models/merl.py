@@ -145,7 +145,7 @@ def begin(p: Ring) -> float:
     return p.begin
 
 
-RING = Coordinates(Axis.HALF, Profile(ring_slope, ring_coordinate, 1.0), exponent=begin)
+RING = Coordinates(Axis.HALF, Profile(ring_slope, ring_coordinate, 1.0), exponent=begin, pieces=12, finest=1e-3)
 CHOICES = (
     File("file", "binary file of the MERL database"),
     Choice("channel", "which plane of the file", options=("red", "green", "blue"), default="red", swept=True),

@@ -52,7 +52,9 @@ class Coordinates:
 
     `exponent(p)` feeds the profile; `ellipse(p)` holds the widths along x and y in slope space (microfacet normals only).
     `lobe(p, wo)` is the unit vector that Axis.LOBE stands for; it may point below the horizon, and the BRDF is 0 a quarter turn
-    and more away from it.
+    and more away from it. `pieces` is into how many panels a quarter turn of azimuth is cut before anything is known: more than
+    one for a BRDF with so many kinks that two rules may agree by chance where neither is right; `finest` is the relative error
+    below which such a one is not worth its price in a search.
     """
 
     axis: Axis
@@ -61,6 +63,8 @@ class Coordinates:
     ellipse: Callable[[Any], tuple[float, float]] = unit_ellipse
     kink: Kink = Kink.NONE
     lobe: Callable[[Any, Direction], Direction] = mirror_axis
+    pieces: int = 1
+    finest: float = 0.0
 
 
 PLAIN = Coordinates(Axis.NORMAL, TANGENT, kink=Kink.EQUAL_COSINES)
