@@ -38,6 +38,7 @@ missed (one time in 40 it is -ln 0.025 = 3.7 hits wide), so the interval is wide
 def rqmc(question: Question, tolerance: Tolerance, seed: int, threads: int, budget: int = BUDGET) -> Estimate:
     """Scrambled Sobol points, doubled until Student's interval over 64 scrambles is narrow enough, or the budget is spent."""
     kernel = sampling_kernel(question.model, question.mu is None, True, question.order)
+    constant = _constant(question)
     sums = np.zeros(REPLICATES)
     non_finite = 0
     points, target = 0, FIRST_POINTS
@@ -53,8 +54,9 @@ def rqmc(question: Question, tolerance: Tolerance, seed: int, threads: int, budg
         points = target
         means = sums / points
         with np.errstate(invalid="ignore", over="ignore"):
-            value, error = float(np.mean(means)), float(np.std(means, ddof=1)) / math.sqrt(REPLICATES)
-        half_width = STUDENT_975 * error + _blind(question, value, points * REPLICATES)
+            sampled, error = float(np.mean(means)), float(np.std(means, ddof=1)) / math.sqrt(REPLICATES)
+        half_width = STUDENT_975 * error + _blind(question, sampled, points * REPLICATES)
+        value = sampled + constant
         estimate = Estimate(value, error, value - half_width, value + half_width, points * REPLICATES, "rqmc", seed, non_finite)
         wanted = _wanted(estimate, tolerance, FASTEST_RATE)
         if non_finite or wanted <= estimate.samples or not wanted <= budget:
@@ -65,6 +67,7 @@ def rqmc(question: Question, tolerance: Tolerance, seed: int, threads: int, budg
 def monte_carlo(question: Question, tolerance: Tolerance, seed: int, threads: int, budget: int = BUDGET) -> Estimate:
     """Independent random samples, as many as the measured variance asks for."""
     kernel = sampling_kernel(question.model, question.mu is None, False, question.order)
+    constant = _constant(question)
     count, mean, squares, non_finite, target = 0, 0.0, 0.0, 0, FIRST_SAMPLES
     while True:
         jobs = [
@@ -80,11 +83,17 @@ def monte_carlo(question: Question, tolerance: Tolerance, seed: int, threads: in
             non_finite += int(moments[NON_FINITE])
         error = math.sqrt(squares / (count - 1) / count)
         half_width = NORMAL_975 * error + _blind(question, mean, count)
-        estimate = Estimate(mean, error, mean - half_width, mean + half_width, count, "mc", seed, non_finite)
+        value = mean + constant
+        estimate = Estimate(value, error, value - half_width, value + half_width, count, "mc", seed, non_finite)
         wanted = _wanted(estimate, tolerance, 0.5)
         if non_finite or wanted <= count or not wanted <= budget:
             return estimate
         target = count + CHUNK * math.ceil((1.02 * wanted - count) / CHUNK)
+
+
+def _constant(question: Question) -> float:
+    """What needs no samples: the Dirac part of one direction; that of the mean is in the samples."""
+    return 0.0 if question.mu is None else float(question.model.mirror(question.p, question.mu))
 
 
 def _blind(question: Question, value: float, samples: int) -> float:

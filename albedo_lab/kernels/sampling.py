@@ -1,6 +1,6 @@
 """The template that averages sample weights: one kernel per model, for directional and for mean albedo, scrambled or random.
 
-A Dirac part is added to every weight as its reflectance: for one direction a constant, for the mean one more integrand.
+For the mean, the reflectance of a Dirac part is one more integrand; for one direction it is a constant, and none of this page's.
 
 Blocks of 512 samples are reduced by fixed-order pairwise sums, their means and sums of squares merged in order, so a chunk of
 samples gives the same bits whatever thread runs it.
@@ -17,7 +17,7 @@ import numpy as np
 
 from albedo_lab.kernels.jit import Placeholder, specialise
 from albedo_lab.kernels.uniforms import philox, sobol0, sobol1, sobol2, sobol3
-from albedo_lab.model import Model
+from albedo_lab.model import Model, no_mirror
 from albedo_lab.optics.frame import Direction
 from albedo_lab.optics.lobes import sample_cosine
 from albedo_lab.optics.maths import sincos2pi
@@ -144,7 +144,7 @@ def sampling_kernel(model: Model, mean: bool, scrambled: bool, order: str = "wi"
         sample=model.sample,
         pdf=model.pdf,
         weight=weight_of(model, order, generic),
-        mirror=model.mirror,
+        mirror=model.mirror if mean else no_mirror,
         uniforms=sobol_uniforms if scrambled else random_uniforms,
         incidence=every_incidence if mean else fixed_incidence,
     )
