@@ -162,9 +162,9 @@ LENGTHS = (
     Parameter("wavelength", "wavelength of the light, in the unit of sigma0 and tau", 0.5, 0.05, 100.0, "log"),
 )
 INDEX = (
-    # aluminium at 500 nm
-    Parameter("eta", "real part of the refractive index", 0.77, 0.01, 10.0, "log"),
-    Parameter("k", "imaginary part of the refractive index", 6.1, 0.0, 20.0),
+    # about aluminium at 500 nm, see optics.metals
+    Parameter("eta", "real part of the refractive index", 0.63, 0.01, 10.0, "log"),
+    Parameter("k", "imaginary part of the refractive index", 5.32, 0.0, 20.0),
 )
 UNIFORM = (Parameter("a_d", "albedo of the uniform-diffuse part", 0.0, 0.0, 1.0),)
 

@@ -186,12 +186,15 @@ def member(file: str, state: tuple[int, ...], channel: str) -> Model:
     from albedo_lab.measured.rings import rings
     from albedo_lab.tables import table
 
-    values = read(file).values(channel)
+    found = read(file)
+    values, census = found.values(channel), found.census(channel)
     measured = Merl(table(values), *map(table, rings(values)))
     # the centres of cells bound the rings in which a table is smooth, as far as theta_h is concerned
     every_ring = tuple((ONE_RING, Ring(measured.values, i - 0.5)) for i in range(THETA_H + 1))
     return replace(
         UNREAD,
+        formula=f"{UNREAD.formula}; of {census.cells} cells {census.negative} are without a value, {census.holes} of these above "
+        f"the horizon, and {census.zero} are 0",
         complete=lambda numbers: measured,
         parts=lambda p: every_ring,
         make=make,

@@ -1,1 +1,1 @@
-"""What several models share: elementary functions, the local frame, lobes and microfacet normals. Plain Python, no numba."""
+"""What several models share: elementary functions, frame, lobes, microfacets, Fresnel, metals, colour. Imports no numba."""
