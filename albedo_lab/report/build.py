@@ -128,12 +128,10 @@ def paper_section(paper: Paper, findings: Mapping[str, Sequence[Finding]]) -> st
         failures += [[table.place, *row] for row in doubter_rows(doubted)]
     everything = [f for table in paper.tables for f in findings[table.name]]
     counts.append(["", "**all**", *(f"**{number}**" for number in tally(everything)), ""])
-    drawn: tuple[Plot | Spectra, ...] = (*paper.plots, *paper.spectra)
-    pictures = [
-        f"### {plot.place.capitalize()}\n\n![{plot.title}]({paper.name}/{plot.name}.svg)\n\n{plot.caption} "
-        f"Files: {links(paper, plot.name, 'svg', 'png', 'csv')}.\n"
-        for plot in drawn
-    ]
+    pictures = [shown(paper, plot, links(paper, plot.name, "svg", "png", "csv")) for plot in paper.plots]
+    for spectra in paper.spectra:
+        files = f"{links(paper, spectra.name, 'svg', 'png', 'csv')}; colours: {links(paper, f'{spectra.name}_colours', 'csv')}"
+        pictures.append(shown(paper, spectra, files))
     return "\n".join(
         [
             f"## {paper.name}\n\n{paper.citation}.\n\n{paper.note}\n",
@@ -143,6 +141,12 @@ def paper_section(paper: Paper, findings: Mapping[str, Sequence[Finding]]) -> st
             *pictures,
         ]
     )
+
+
+def shown(paper: Paper, plot: Plot | Spectra, files: str) -> str:
+    """A picture with its caption and its files."""
+    picture_of = f"![{plot.title}]({paper.name}/{plot.name}.svg)"
+    return f"### {plot.place.capitalize()}\n\n{picture_of}\n\n{plot.caption} Files: {files}.\n"
 
 
 def tally(findings: Sequence[Finding]) -> list[str]:
