@@ -9,7 +9,9 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from albedo_lab.analysis.albedo import albedo
+    from albedo_lab.analysis.check import check
     from albedo_lab.analysis.colour import colour
+    from albedo_lab.analysis.grazing import grazing
     from albedo_lab.analysis.mean_albedo import mean_albedo
     from albedo_lab.analysis.normalise import normalise
     from albedo_lab.analysis.tabulate import tabulate
@@ -19,7 +21,9 @@ if TYPE_CHECKING:
 
 _HOME = {
     "albedo": "albedo_lab.analysis.albedo",
+    "check": "albedo_lab.analysis.check",
     "colour": "albedo_lab.analysis.colour",
+    "grazing": "albedo_lab.analysis.grazing",
     "mean_albedo": "albedo_lab.analysis.mean_albedo",
     "normalise": "albedo_lab.analysis.normalise",
     "tabulate": "albedo_lab.analysis.tabulate",
@@ -44,8 +48,10 @@ __all__ = [
     "Parameter",
     "Reference",
     "albedo",
+    "check",
     "colour",
     "find",
+    "grazing",
     "mean_albedo",
     "names",
     "normalise",

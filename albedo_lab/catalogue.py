@@ -16,16 +16,31 @@ def names() -> list[str]:
     return sorted(module.name for module in iter_modules(models.__path__))
 
 
+def offered() -> list[str]:
+    """The names of the models that installed packages offer; none of them is imported."""
+    from albedo_lab import custom
+
+    return [name for name in custom.offered() if name not in names()]
+
+
 def find(name: str) -> Model:
     """The model of that name; for the path of a `.binary` file, the measurement in it.
 
-    Raises BadInput for an unknown name, with the nearest known ones, and for a file that cannot be read.
+    Models of one's own are `file.py:name` or `package.module:name`, or bear a name that an installed package gives them (see
+    `albedo_lab.custom`). Raises BadInput for an unknown name, with the nearest known ones, and for a file that cannot be read.
     """
     if name.endswith(".binary"):
         return find("merl").member({"file": name})[0]
-    if name not in names():
-        nearest = difflib.get_close_matches(name, names(), n=3, cutoff=0.5)
-        hint = f"did you mean {' or '.join(nearest)}?" if nearest else "see albedo-lab list"
-        raise BadInput("model", name, f"not in the catalogue; {hint}")
-    found: Model = import_module(f"{models.__name__}.{name}").MODEL
-    return found
+    if name in names():
+        found: Model = import_module(f"{models.__name__}.{name}").MODEL
+        return found
+    from albedo_lab import custom
+
+    if custom.is_own(name):
+        return custom.model_at(name)
+    elsewhere = custom.offered()
+    if name in elsewhere:
+        return custom.model_at(elsewhere[name].value, name)
+    nearest = difflib.get_close_matches(name, [*names(), *elsewhere], n=3, cutoff=0.5)
+    hint = f"did you mean {' or '.join(nearest)}?" if nearest else "see albedo-lab list"
+    raise BadInput("model", name, f"not in the catalogue; {hint}")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import inspect
 import os
+import shutil
 import signal
 import sys
 import tempfile
@@ -105,8 +106,20 @@ def writable(context: click.Context, option: click.Parameter, text: str | None) 
             raise IsADirectoryError(0, "a folder or a device")
         tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.").close()
     except OSError as error:
-        raise BadInput("output", text, f"must be a file that can be written ({error.strerror})") from None
+        raise BadInput(option.name or "output", text, f"must be a file that can be written ({error.strerror})") from None
     return path
+
+
+def report_file(context: click.Context, option: click.Parameter, text: str | None) -> Path | None:
+    """A file beside the result: standard output is taken."""
+    if text == "-":
+        raise BadInput(option.name or "output", text, "must be a file; standard output carries the result")
+    return writable(context, option, text)
+
+
+def words(context: click.Context, option: click.Parameter, text: str | None) -> list[str]:
+    """A comma-separated list of names; none where the option is not given."""
+    return [] if text is None else [word.strip() for word in text.split(",")]
 
 
 def emit(text: str, output: Path | None) -> None:
@@ -279,6 +292,73 @@ def colour(mu: list[Any] | None, theta_deg: list[Any] | None, **options: Any) ->
     from albedo_lab.analysis.colour import colour as question
 
     answer(question, mu=mu, theta_deg=theta_deg or (None if mu else list(THETA_DEG)), **options)
+
+
+@main.command()
+@MODEL
+@PARAMETERS
+@click.option("--phi-deg", type=reals, metavar="A,B,..", help="Azimuths, in degrees, for anisotropic models. [default: 0]")
+@LAYOUT
+def grazing(**options: Any) -> None:
+    """Behaviour at grazing angles. Whether the albedo stays bounded, vanishes or diverges, and with which exponent."""
+    from albedo_lab.analysis.grazing import grazing as question
+
+    answer(question, **options)
+
+
+@main.command()
+@click.argument("models", nargs=-1, metavar="[MODEL]...")
+@click.option("--all", "whole_catalogue", is_flag=True, help="Every model of the catalogue that needs no file.")
+@PARAMETERS
+@click.option(
+    "--only",
+    callback=words,
+    metavar="A,B,..",
+    help="Of finiteness, positivity, energy, reciprocity, grazing, sampler, claims, quality.",
+)
+@click.option("--skip", callback=words, metavar="A,B,..", help="Of the same.")
+@click.option("--alpha", type=real, metavar="P", help="Probability that the run accuses a sound model. [default: 0.01]")
+@click.option("--budget", type=whole, metavar="N", help="Evaluations that one check may cost. [default: 2^24]")
+@click.option("--excess", type=real, default=1e-5, show_default=True, metavar="E", help="Forgiven above an albedo of 1.")
+@SEED
+@THREADS
+@click.option("--json", "as_json", is_flag=True, help="A list of records instead of the table.")
+@click.option("--junit", metavar="FILE", callback=report_file, help="JUnit XML as well, for a build server.")
+@click.option("-o", "--output", metavar="FILE", callback=writable, help="Written whole, or not at all; - is standard output.")
+def check(
+    models: tuple[str, ...],
+    whole_catalogue: bool,
+    parameters: dict[str, list[Any]],
+    as_json: bool,
+    junit: Path | None,
+    output: Path | None,
+    **options: Any,
+) -> int:
+    """Plausibility. Energy, reciprocity, sampler and the rest, each with a verdict, and a witness where it convicts.
+
+    Exit status: 0 plausible, 1 a check failed, 2 bad input, 3 inconclusive within the budget.
+    """
+    if bool(models) == whole_catalogue:
+        raise BadInput("model", " ".join(models), "give the names of models, or --all")
+    if junit is not None and junit == output:
+        raise BadInput("junit", str(junit), "must be another file than the output")
+    from albedo_lab.analysis.check import everyone, findings_table, run, short, status
+    from albedo_lab.report.findings import findings_text
+    from albedo_lab.report.junit import Case, junit_xml
+
+    with progress_bar() as progress:
+        told = run(models or everyone(), parameters, progress=progress, **options)
+    cases = [Case(subject.model.name, short(subject, parameters), finding) for subject, finding in told]
+    terminal = output is None and sys.stdout.isatty()
+    if as_json:
+        text = format_table(findings_table(told), "json")
+    else:
+        columns = shutil.get_terminal_size().columns if terminal else None
+        text = findings_text(cases, terminal and not os.environ.get("NO_COLOR"), columns)
+    if junit is not None:
+        write_whole(junit, junit_xml(cases))
+    emit(text, output)
+    return status([finding for _, finding in told])
 
 
 @main.command()

@@ -6,6 +6,7 @@ import pty
 import subprocess
 import sys
 from types import SimpleNamespace
+from xml.etree import ElementTree
 
 import pandas as pd
 import pytest
@@ -61,6 +62,30 @@ def folder(tmp_path, monkeypatch):
         (["normalise", "phong", "-p", "scale=2"], ["scale", "2.0"]),
         (["list", "--format", "xml"], ["--format", "xml", "csv"]),
         (["list", "-o", "."], ["output = '.'"]),
+        (["check"], ["model", "--all"]),
+        (["check", "phong", "--all"], ["model = 'phong'", "--all"]),
+        (["check", "phong", "wart"], ["model = 'wart'", "ward"]),
+        (["check", "phong", "ward", "-p", "n=3"], ["n = 3.0", "ward"]),
+        (["check", "phong", "-p", "only=energy"], ["only = 'energy'", "it takes n, scale"]),
+        (["check", "phong", "--only", "energie"], ["only = 'energie'", "finiteness"]),
+        (["check", "phong", "--only", ""], ["only = ''"]),
+        (["check", "phong", "--skip", "energy,,"], ["skip = ''"]),
+        (["check", "phong", "--only", "energy", "--skip", "energy"], ["skip = 'energy'", "no check"]),
+        (["check", "phong", "--alpha", "1"], ["alpha = 1.0"]),
+        (["check", "phong", "--alpha", "low"], ["alpha = 'low'"]),
+        (["check", "phong", "--budget", "0"], ["budget = 0"]),
+        (["check", "phong", "--budget", "much"], ["budget = 'much'"]),
+        (["check", "phong", "--excess", "-1"], ["excess = -1.0"]),
+        (["check", "phong", "--excess", "nan"], ["excess = nan"]),
+        (["check", "phong", "--seed", "-1"], ["seed = -1"]),
+        (["check", "phong", "--threads", "0"], ["threads = 0"]),
+        (["check", "merl"], ["file", "must be given"]),
+        (["check", "phong", "--junit", "-"], ["junit = '-'", "standard output"]),
+        (["check", "phong", "--junit", "missing/x.xml"], ["junit = 'missing/x.xml'", "No such file"]),
+        (["check", "phong", "--junit", "x", "-o", "x"], ["junit", "another file"]),
+        (["check", "phong", "-o", "."], ["output = '.'"]),
+        (["grazing", "phong", "--phi-deg", "361"], ["phi_deg = 361.0", "turn"]),
+        (["grazing", "phong", "-p", "q=1"], ["q = 1.0", "it takes n, scale"]),
     ],
 )
 def test_bad_usage(folder, arguments, said):
@@ -456,3 +481,142 @@ def test_formats_without_rows(names, kind):
 )
 def test_digits_that_the_error_justifies(interval, shown):
     assert justified(*interval) == shown
+
+
+STUBS = ["finiteness", "positivity", "energy", "reciprocity", "grazing", "sampler", "claims", "quality"]
+
+
+@pytest.fixture
+def verdicts(monkeypatch):
+    """Every check replaced by one that says what this dictionary holds for it, PASS by default."""
+    from albedo_lab.analysis.check import CHECKS
+    from albedo_lab.analysis.verdict import Finding, Verdict
+
+    said = {}
+
+    def stub(name):
+        def found(subject, trial, before):
+            kind = said.get(name, "PASS")
+            if isinstance(kind, Exception):
+                raise kind
+            return [Finding(name, Verdict(kind), math.inf, 1.0, f"{name} <says>", "there" if kind == "FAIL" else "")]
+
+        return found
+
+    for name in STUBS:
+        monkeypatch.setitem(CHECKS, name, stub(name))
+    return said
+
+
+@pytest.mark.parametrize(
+    ("said", "status"),
+    [
+        ({}, 0),
+        ({"sampler": "SKIPPED", "grazing": "REPORTED"}, 0),
+        ({"energy": "FAIL"}, 1),
+        ({"energy": "FAIL", "claims": "INCONCLUSIVE"}, 1),
+        ({"claims": "INCONCLUSIVE"}, 3),
+        ({"claims": Inconclusive("budget = 5: spent")}, 3),
+        ({"claims": ZeroDivisionError("x")}, 3),
+    ],
+)
+def test_status_of_a_check(folder, verdicts, said, status):
+    """The result is told in full, whatever the status."""
+    verdicts.update(said)
+    result = run("check", "phong", "--junit", "x.xml", "-o", "x.txt")
+    assert (result.exit_code, result.output) == (status, "")
+    assert {path.name for path in folder.iterdir()} == {"x.xml", "x.txt"}
+    text = (folder / "x.txt").read_text()
+    assert text == run("check", "phong").stdout
+    assert text.splitlines()[0].split() == ["model", "check", "verdict", "figure", "limit", "found"]
+    assert len(text.splitlines()) == 1 + len(STUBS) + 2
+    assert text.splitlines()[-1].split()[:2] == ["phong", {0: "PASS", 1: "FAIL", 3: "INCONCLUSIVE"}[status]]
+    suites = ElementTree.parse(folder / "x.xml").getroot()
+    assert [case.get("name") for case in suites.iter("testcase")] == STUBS
+    assert int(suites.get("failures")) == sum(kind == "FAIL" for kind in said.values())
+
+
+def test_json_of_a_check(verdicts):
+    """The records of the Python call, with neither NaN nor infinity, of which JSON has none."""
+    verdicts["energy"] = "FAIL"
+    result = run("check", "phong", "lambert", "-p", "scale=1,2", "--json", "--skip", "quality")
+    records = json.loads(result.stdout, parse_constant=pytest.fail)
+    schema = {
+        "model": str, "n": (float, type(None)), "albedo": (float, type(None)), "scale": float, "check": str, "verdict": str,
+        "figure": (float, str, type(None)), "threshold": (float, type(None)), "p_value": (float, type(None)),
+        "statement": str, "witness": str, "claim": str,
+    }  # fmt: skip
+    assert [list(record) for record in records] == [list(schema)] * 28
+    assert all(isinstance(record[name], kind) for record in records for name, kind in schema.items())
+    assert [record["check"] for record in records] == STUBS[:-1] * 4
+    assert {record["figure"] for record in records} == {"inf"}
+    frame = albedo_lab.check(["phong", "lambert"], skip=["quality"], scale=[1, 2])
+    assert [record["verdict"] for record in records] == frame.verdict.tolist()
+    assert list(frame.columns) == list(schema)
+    assert result.exit_code == 1
+
+
+def test_the_whole_catalogue(verdicts):
+    result = run("check", "--all", "--only", "energy", "-p", "scale=1")
+    names = [name for name in catalogue.names() if name != "merl"]
+    lines = [line.split() for line in result.stdout.splitlines()]
+    assert [line[:3] for line in lines[1 : len(names) + 1]] == [[name, "scale=1", "energy"] for name in names]
+    assert [line[:2] for line in lines[len(names) + 2 :]] == [[name, "PASS"] for name in names]
+
+
+def test_the_help_names_every_check():
+    from albedo_lab.analysis.check import CHECKS
+
+    text = " ".join(run("check", "--help").stdout.split())
+    assert ", ".join(CHECKS) in text
+
+
+def test_nothing_is_written_when_the_run_breaks_off(folder, monkeypatch):
+    def fails(*arguments, **options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("albedo_lab.analysis.check.run", fails)
+    assert run("check", "phong", "--junit", "x.xml", "-o", "x.txt").exit_code == 130
+    assert not any(folder.iterdir())
+
+
+def test_colours_only_on_a_terminal():
+    arguments = ["check", "lambert", "--only", "positivity"]
+    plain = shell(*arguments)
+    terminal, other_end = pty.openpty()
+    environment = {name: value for name, value in os.environ.items() if name != "NO_COLOR"} | {"COLUMNS": "100"}
+    seen = []
+    for more in ({}, {"NO_COLOR": "1"}):
+        assert shell(*arguments, stdout=other_end, env=environment | more).returncode == 0
+        seen.append(os.read(terminal, 65536))
+    os.close(other_end)
+    os.close(terminal)
+    assert b"\x1b[32mPASS" in seen[0]
+    assert b"\x1b" not in seen[1] + plain.stdout
+    assert max(map(len, seen[1].splitlines())) <= 100
+    assert b" ".join(seen[1].split()) == b" ".join(plain.stdout.split())
+
+
+def test_a_check_says_the_same_bytes():
+    """Two processes, one and two threads."""
+    arguments = ["check", "stretched_phong", "--only", "finiteness,sampler", "--budget", "1000000", "--json"]
+    one, two = (shell(*arguments, "--threads", threads) for threads in "12")
+    assert (one.returncode, one.stderr) == (0, b"")
+    assert one.stdout == two.stdout
+
+
+def test_status_of_the_process_of_a_check():
+    """A sound and a sick model, nothing replaced."""
+    sound, sick = (shell("check", "lambert", "-p", f"scale={scale}", "--only", "energy") for scale in ("1", "1.001"))
+    assert (sound.returncode, sick.returncode) == (0, 1)
+    assert b"witness: " in sick.stdout
+    assert b"witness: " not in sound.stdout
+
+
+def test_grazing():
+    """neumann1999: the plain model is bounded, one divided by cos^2 diverges."""
+    read = run("grazing", "product_phong", "-p", "n=1,20", "--format", "csv")
+    frame = pd.read_csv(io.StringIO(read.stdout))
+    assert list(frame.columns)[:6] == ["model", "n", "scale", "exponent", *FIGURES[:2]]
+    assert frame.behaviour.tolist() == ["diverges"] * 2
+    assert "bounded" in run("grazing", "stretched_phong").stdout

@@ -1,0 +1,31 @@
+"""What is truly wrong with the models of the catalogue, for the first parameters of `trial.SPECIMENS`."""
+
+from __future__ import annotations
+
+TRUE_FINDINGS: dict[str, dict[str, str]] = {
+    "phong_original": {
+        "energy": "n = 0: a(1) = 2 over the light; over the viewer it grows like 1/mu",
+        "reciprocity": "over the cosine of the light alone",
+    },
+    "stretched_phong": {"energy": "n = 0: a = 1.0858 at theta = 45 deg; the paper claims energy balance for n >= 1 only"},
+    "retro_phong": {"energy": "n = 0: as stretched_phong, whose image it is"},
+    "plus_phong": {"energy": "n = 0: a(1) = 1.227, and 2 at grazing; the paper's constant is for another lobe"},
+    "product_phong": {"energy": "grows like 1/mu, for which the paper rejects it"},
+    "sqrt_phong": {"energy": "grows like mu^-1/2, for which the paper rejects it"},
+    "ward": {
+        "energy": "grows like mu^-1/2; for m = 1e-4 above 1 from mu = 1e-13 on",
+        "claims": "neumann1999 §6.2, citing Ward, has it conserve energy for m < 0.2",
+    },
+    "schlick": {"energy": "r = 1e-6: a = 499 at mu = 1e-9", "claims": "schlick1993 section 7 has it conserve energy"},
+    "cook_torrance": {"claims": "neumann1999 figure 5 has it diverge at grazing angles; V-cavities keep it at most 1"},
+    "he_torrance": {"energy": "a = 1.59 at mu = 0.2", "claims": "energy conserving without a diffuse part"},
+}
+"""By model and check, the convictions that are right, with the reason; every other check acquits, of every other model all do."""
+
+UNDECIDED: dict[str, dict[str, str]] = {
+    "schlick_isotropic": {
+        "energy": "r = 1e-6: the albedo is still rising at mu = 1e-12, and its limit is known within 2e-4",
+        "claims": "the same claim of energy balance",
+    },
+}
+"""What is left open at the default budget, and why."""
