@@ -1,5 +1,6 @@
 """Assertions and the pytest plugin: what they accept, what a failure tells, and what they cost who makes no use of them."""
 
+import os
 import re
 import shlex
 import subprocess
@@ -185,7 +186,10 @@ def suite(folder, text, *options):
     entry = re.search(r"\[project\.entry-points\.pytest11\]\nalbedo_lab = \"([\w.]+)\"", (ROOT / "pyproject.toml").read_text())
     arguments = ["-q", "-W", "error", "-p", entry[1], "--rootdir", str(folder), "-p", "no:cacheprovider", *options]
     command = [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(ROOT)!r}); import pytest; sys.exit(pytest.main())"]
-    return subprocess.run([*command, *arguments, "test_it.py"], capture_output=True, check=False, text=True, cwd=folder)
+    alone = os.environ | {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}  # installed, the package would load it a second time
+    return subprocess.run(
+        [*command, *arguments, "test_it.py"], capture_output=True, check=False, text=True, cwd=folder, env=alone
+    )
 
 
 def test_the_plugin_in_a_suite_that_makes_use_of_it(tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
@@ -24,6 +25,8 @@ AZIMUTH_SEARCH = 700
 CHEAPER = 8
 """Evaluations of quadrature, without random numbers and several at once, that cost as much as one sample."""
 PAIRS = 64
+TURN = 1.0
+"""An angle by which no crystal of finite order repeats, in radians."""
 
 
 @lru_cache(maxsize=256)
@@ -36,23 +39,45 @@ def limited(model: Model, relative: float) -> Model:
 
 @lru_cache(maxsize=256)
 def trusted(model: Model, p: Any) -> Model:
-    """The model, without its parts where these do not sum to its f: a copy of a model with another f has them still."""
-    if model.parts is None:
-        return model
+    """The model, without what it says of itself and what its f belies: parts that do not sum to f, and being isotropic.
+
+    A copy of a model with another f still has its parts, and may still say that azimuths do not matter.
+    """
+    divided = model.smooth_in.finest > 0.0  # the parts of a table divide its domain, not f
+    if model.parts is not None and not divided and _belied(model, p, _is_not_the_sum):
+        model = replace(model, parts=None)
+    if model.isotropic(p) and _belied(model, p, _turns):
+        model = replace(model, isotropic=lambda p: False)
+    return model
+
+
+def _belied(model: Model, p: Any, fault: Callable[[Model, Any, Direction, Direction], bool]) -> bool:
+    """Whether some pair of directions shows the fault; half of them near the mirror direction, where narrow lobes are."""
     rng = np.random.default_rng(0)
     for a, b, turn, phi in rng.random((PAIRS, 4)).tolist():
         wi = Direction(*incident(max(a * a, 1e-6), 2.0 * math.pi * phi))
         wo = Direction(*incident(max(b, 1e-6), 2.0 * math.pi * (phi + turn)))
-        # half of the pairs near the mirror direction, where narrow lobes are
         wi = wi if turn < 0.5 else Direction(*incident(max(b * (1.0 - 1e-3 * a), 1e-6), 2.0 * math.pi * (phi + turn) + math.pi))
         try:
-            whole = model.evaluate(p, wi, wo)
-            parts = math.fsum(part.evaluate(values, wi, wo) for part, values in model.parts(p))
+            if fault(model, p, wi, wo):
+                return True
         except (ArithmeticError, ValueError):
             continue
-        if not math.isclose(whole, parts, rel_tol=1e-9, abs_tol=1e-12):
-            return replace(model, parts=None)
-    return model
+    return False
+
+
+def _is_not_the_sum(model: Model, p: Any, wi: Direction, wo: Direction) -> bool:
+    """Whether the parts sum to something else than f."""
+    assert model.parts is not None
+    parts = math.fsum(part.evaluate(values, wi, wo) for part, values in model.parts(p))
+    return not math.isclose(model.evaluate(p, wi, wo), parts, rel_tol=1e-9, abs_tol=1e-12)
+
+
+def _turns(model: Model, p: Any, wi: Direction, wo: Direction) -> bool:
+    """Whether f changes when the surface is turned: by more than a narrow lobe's share of the rounding of directions."""
+    s, c = math.sin(TURN), math.cos(TURN)
+    turned = (Direction(c * w.x - s * w.y, s * w.x + c * w.y, w.z) for w in (wi, wo))
+    return not math.isclose(model.evaluate(p, wi, wo), model.evaluate(p, *turned), rel_tol=1e-4, abs_tol=1e-12)
 
 
 def reachable(model: Model, p: Any, order: str, budget: int) -> float | None:
