@@ -18,7 +18,6 @@ TRUE_FINDINGS: dict[str, dict[str, str]] = {
     },
     "schlick": {"energy": "r = 1e-6: a = 499 at mu = 1e-9", "claims": "schlick1993 section 7 has it conserve energy"},
     "cook_torrance": {"claims": "neumann1999 figure 5 has it diverge at grazing angles; V-cavities keep it at most 1"},
-    "he_torrance": {"energy": "a = 1.59 at mu = 0.2", "claims": "energy conserving without a diffuse part"},
 }
 """By model and check, the convictions that are right, with the reason; every other check acquits, of every other model all do."""
 
