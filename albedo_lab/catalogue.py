@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import difflib
 from importlib import import_module
+from importlib.metadata import EntryPoint, entry_points
 from pkgutil import iter_modules
 
 from albedo_lab import models
 from albedo_lab.errors import BadInput
 from albedo_lab.model import Model
+
+GROUP = "albedo_lab.models"
 
 
 def names() -> list[str]:
@@ -16,11 +19,10 @@ def names() -> list[str]:
     return sorted(module.name for module in iter_modules(models.__path__))
 
 
-def offered() -> list[str]:
-    """The names of the models that installed packages offer; none of them is imported."""
-    from albedo_lab import custom
-
-    return [name for name in custom.offered() if name not in names()]
+def offered() -> dict[str, EntryPoint]:
+    """What installed packages offer in the entry-point group `albedo_lab.models`, by name; none of it is imported."""
+    found = sorted(entry_points(group=GROUP), key=lambda entry: entry.name)
+    return {entry.name: entry for entry in found if entry.name not in names()}
 
 
 def find(name: str) -> Model:
@@ -38,7 +40,7 @@ def find(name: str) -> Model:
 
     if custom.is_own(name):
         return custom.model_at(name)
-    elsewhere = custom.offered()
+    elsewhere = offered()
     if name in elsewhere:
         return custom.model_at(elsewhere[name].value, name)
     nearest = difflib.get_close_matches(name, [*names(), *elsewhere], n=3, cutoff=0.5)

@@ -22,7 +22,7 @@ import click
 from albedo_lab import __version__, catalogue
 from albedo_lab.errors import BadInput, Inconclusive
 from albedo_lab.files import write_whole
-from albedo_lab.model import Choice, Claim, Count, File, GrazingAlbedo, Maximum, Model, Parameter, Reference
+from albedo_lab.model import Choice, Claim, Count, File, GrazingAlbedo, Maximum, Model, Parameter
 from albedo_lab.report.formats import KINDS, format_rows, format_table
 
 if TYPE_CHECKING:
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 THETA_DEG = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0, 89.0)
 INTERRUPTED = 128 + signal.SIGINT
+TRACEBACK = "ALBEDO_LAB_TRACEBACK"
+"""Of the environment: whether an error that nobody foresaw is shown with its traceback."""
+PICTURES = ("polar", "log-polar", "lobe", "albedo", "slice", "preview", "sampling")
 UNREAD = 128 + 13
 """The status of a program whose reader went away (SIGPIPE): nothing failed, but not all was said."""
 
@@ -49,6 +52,10 @@ class OneLine(click.Group):
             status = fail(3, str(error))
         except (click.Abort, KeyboardInterrupt):
             status = INTERRUPTED
+        except Exception as error:  # of somebody's own model far from its defaults, or a defect of ours
+            if os.environ.get(TRACEBACK):
+                raise
+            status = fail(2, f"{type(error).__name__}: {error} ({TRACEBACK}=1 shows where)")
         sys.exit(status or 0)
 
 
@@ -120,6 +127,13 @@ def report_file(context: click.Context, option: click.Parameter, text: str | Non
 def words(context: click.Context, option: click.Parameter, text: str | None) -> list[str]:
     """A comma-separated list of names; none where the option is not given."""
     return [] if text is None else [word.strip() for word in text.split(",")]
+
+
+def probability(context: click.Context, option: click.Parameter, value: Any) -> float:
+    """A level, which the analysis knows by another name than the command line."""
+    if not isinstance(value, float) or not 0.0 < value < 1.0:
+        raise BadInput(option.opts[0].lstrip("-"), value, "must be a probability above 0 and below 1")
+    return value
 
 
 def emit(text: str, output: Path | None) -> None:
@@ -239,8 +253,10 @@ def main() -> None:
 @main.command("list")
 @LAYOUT
 def list_models(kind: str, output: Path | None) -> None:
-    """The catalogue. Every model with its summary."""
-    emit(format_rows(["name", "summary"], [(n, catalogue.find(n).summary) for n in catalogue.names()], kind), output)
+    """The catalogue. Every model with its summary, and what installed packages offer."""
+    rows = [(name, catalogue.find(name).summary) for name in catalogue.names()]
+    rows += [(name, f"offered by {entry.value}") for name, entry in catalogue.offered().items()]
+    emit(format_rows(["name", "summary"], rows, kind), output)
 
 
 @main.command()
@@ -317,7 +333,16 @@ def grazing(**options: Any) -> None:
     help="Of finiteness, positivity, energy, reciprocity, grazing, sampler, claims, quality.",
 )
 @click.option("--skip", callback=words, metavar="A,B,..", help="Of the same.")
-@click.option("--alpha", type=real, metavar="P", help="Probability that the run accuses a sound model. [default: 0.01]")
+@click.option(
+    "--alpha",
+    "level",
+    type=real,
+    default=0.01,
+    show_default=True,
+    callback=probability,
+    metavar="P",
+    help="Probability that the run accuses a sound model.",
+)
 @click.option("--budget", type=whole, metavar="N", help="Evaluations that one check may cost. [default: 2^24]")
 @click.option("--excess", type=real, default=1e-5, show_default=True, metavar="E", help="Forgiven above an albedo of 1.")
 @SEED
@@ -383,16 +408,55 @@ def tabulate(model: Model, parameters: dict[str, list[Any]], output: Path | None
 
 
 @main.command()
+@MODEL
+@PARAMETERS
+@click.option("--kind", type=click.Choice(PICTURES), default="polar", show_default=True)
+@click.option("--theta-deg", type=reals, metavar="A,B,..", help="Where the light is, in degrees from the normal; for some kinds.")
+@click.option("--quantity", type=click.Choice(["brdf", "radiance", "normalised"]), help="Of the polar kinds. [default: brdf]")
+@click.option("--seed", type=whole, metavar="N", help="Of the kind sampling. [default: 0]")
+@THREADS
+@click.option("-o", "--output", required=True, metavar="FILE", callback=writable, help="Ends in .svg, .png or .pdf.")
+def plot(
+    model: Model,
+    parameters: dict[str, list[Any]],
+    kind: str,
+    theta_deg: list[Any] | None,
+    threads: int | None,
+    output: Path | None,
+    **options: Any,
+) -> None:
+    """A picture. Sections, lobes, albedo curves, slices, previews or samples, of all of a grid of parameters together."""
+    form = output.suffix.lower().lstrip(".") if output is not None else "-"
+    if output is None or form not in ("svg", "png", "pdf"):
+        raise BadInput("output", str(output or "-"), "must be a file that ends in .svg, .png or .pdf")
+    from albedo_lab.analysis.request import effort
+    from albedo_lab.pictures.kinds import asked
+    from albedo_lab.report.drawing import render
+
+    bound(model, parameters)
+    options |= {"theta_deg": theta_deg and tuple(theta_deg)}
+    given = {name: value for name, value in options.items() if value is not None}
+    effort(None, "rqmc", given.get("seed", 0), threads)  # refuses what is no seed and no number of threads
+    picture = asked(kind, model, parameters, **given)
+    write_whole(output, render(picture, picture.trace(threads), (form,))[form])
+
+
+@main.command()
 @click.argument("papers", nargs=-1, metavar="[PAPER]...")
 @click.option("-o", "--output", type=click.Path(path_type=Path), default="reports", show_default=True, metavar="FOLDER")
+@click.option("--timings", is_flag=True, help="Measure the times anew; without, those of the folder stay, if there are any.")
 @SEED
 @THREADS
-def report(papers: tuple[str, ...], output: Path, seed: int, threads: int | None) -> None:
+def report(papers: tuple[str, ...], output: Path, timings: bool, seed: int, threads: int | None) -> None:
     """The audit of the papers. Recomputes what they print, in all of them by default, and judges each figure."""
+    from albedo_lab.analysis.request import effort
     from albedo_lab.report.build import write_reports
 
+    if timings and papers:
+        raise BadInput("timings", " ".join(papers), "times are measured for all documents together: give none")
+    processes = effort(None, "rqmc", seed, threads).threads
     with progress_bar() as progress:
-        write_reports(output, papers, seed, threads, progress)
+        write_reports(output, papers, seed, threads, progress, timings, processes)
 
 
 def description(model: Model) -> Iterator[str]:
@@ -407,7 +471,7 @@ def description(model: Model) -> Iterator[str]:
         ("scale", f"{model.scale_symbol}; default: {scale}"),
         ("reciprocal", "yes" if model.reciprocal else "no: albedos are given for both orders of integration"),
         ("smooth", "term by term" if model.parts else f"in polar angles about the {model.smooth_in.axis.name.lower()} vector"),
-        *(("source", citation(reference)) for reference in references),
+        *(("source", str(reference)) for reference in references),
         *(("deviation", deviation) for reference in references for deviation in reference.deviations),
     )
     if model.choices:
@@ -454,9 +518,3 @@ def entries(*pairs: tuple[str, str]) -> Iterator[str]:
     width = max((len(name) for name, _ in pairs), default=0) + 4
     for name, text in pairs:
         yield from textwrap.wrap(text, 110, initial_indent=f"  {name}".ljust(width), subsequent_indent=" " * width)
-
-
-def citation(reference: Reference) -> str:
-    """Where a formula stands."""
-    year = f" ({reference.year})" if reference.year else ""
-    return f"{reference.authors}: {reference.title}{year}, {reference.equation}"

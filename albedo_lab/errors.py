@@ -13,6 +13,10 @@ class BadInput(ValueError):
         self.parameter, self.value, self.domain = parameter, value, domain
         super().__init__(f"{parameter} = {value!r}: {domain}")
 
+    def __reduce__(self) -> tuple[type[BadInput], tuple[str, object, str]]:
+        """Pickled by what it was made of: an exception is otherwise made again of its message."""
+        return BadInput, (self.parameter, self.value, self.domain)
+
 
 class Inconclusive(RuntimeError):
     """The budget ran out before the answer reached its tolerance; the command line exits with status 3."""

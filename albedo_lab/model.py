@@ -126,6 +126,10 @@ class Reference:
     equation: str
     deviations: tuple[str, ...] = ()
 
+    def __str__(self) -> str:
+        year = f" ({self.year})" if self.year else ""
+        return f"{self.authors}: {self.title}{year}, {self.equation}"
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -228,10 +232,17 @@ class Model:
     make: Callable[..., Model] | None = None
     chosen: Mapping[str, Any] = field(default_factory=dict)
 
+    def __reduce__(self) -> tuple[Callable[..., Model], tuple[str, dict[str, Any]]]:
+        """Pickled by its name and what was chosen, as lambdas cannot be: only a model of the catalogue can."""
+        words = dict(self.chosen)
+        if _of_catalogue(self.name, words) is not self:
+            raise TypeError(f"{self.title} is not the model of that name in the catalogue: it cannot be pickled")
+        return _of_catalogue, (self.name, words)
+
     @property
     def summary(self) -> str:
         """The first line of the module in which the formula stands."""
-        return (sys.modules[self.evaluate.__module__].__doc__ or "").strip().partition("\n")[0]
+        return (sys.modules[(self.make or self.evaluate).__module__].__doc__ or "").strip().partition("\n")[0]
 
     def member(self, values: Mapping[str, object]) -> tuple[Model, dict[str, object]]:
         """The member of the family that the choices among the values select, and the values that are left.
@@ -277,3 +288,9 @@ class Model:
             values = {getattr(p, name) for name in parameter.sets or (parameter.name,)}
             row[parameter.name] = values.pop() if len(values) == 1 else math.nan
         return row
+
+
+def _of_catalogue(name: str, chosen: Mapping[str, Any]) -> Model:
+    from albedo_lab.catalogue import find
+
+    return find(name).member(chosen)[0]

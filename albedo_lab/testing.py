@@ -13,8 +13,10 @@ if TYPE_CHECKING:
     from albedo_lab.analysis.verdict import Finding
     from albedo_lab.model import Model
 
-OPTIONS: dict[str, Any] = {"seed": 0, "alpha": None, "excess": 1e-5, "budget": None, "threads": None}
+OPTIONS: dict[str, Any] = {"seed": 0, "level": 0.01, "excess": 1e-5, "budget": None, "threads": None}
 """The keywords that every assertion takes beside the model's parameters, with their defaults."""
+FLAGS = {"level": "alpha"}
+"""What the command line calls an option by another name: there `-p` tells the level from the roughness alpha."""
 
 # `__tracebackhide__` makes pytest show the line of the test, not of these functions.
 
@@ -23,9 +25,9 @@ def assert_energy_conserving(model: Model | str, **parameters: object) -> None:
     """Asserts that the albedo is nowhere above 1.
 
     This and every other assertion take a Model, the name or the place of one, its parameters and `scale`, several values of
-    which make a grid; `seed`, `alpha`, `excess`, `budget` and `threads` as `albedo_lab.check` does; a parameter that bears one
-    of these names, as the roughness `alpha` does, in the mapping `parameters`. They raise AssertionError with the finding, its
-    witness and a line that reproduces it, also where the check stays inconclusive, and BadInput for a value outside its domain.
+    which make a grid; `seed`, `level`, `excess`, `budget` and `threads` as `albedo_lab.check` does. They raise AssertionError
+    with the finding, its witness and a line that reproduces it, also where the check stays inconclusive, and BadInput for a
+    value outside its domain.
     """
     __tracebackhide__ = True
     _demand("assert_energy_conserving", "energy", model, parameters)
@@ -83,11 +85,10 @@ def _demand(
 ) -> None:
     """Makes one check of a model, and raises AssertionError for what it finds against it."""
     __tracebackhide__ = True
-    from albedo_lab.analysis.check import named, run, short
+    from albedo_lab.analysis.check import run, short
 
     options = {name: given.get(name, default) for name, default in OPTIONS.items()}
-    rest = {name: value for name, value in given.items() if name not in (*OPTIONS, "parameters")}
-    parameters = {name: _plain(value) for name, value in named(model, given.get("parameters"), rest, options["alpha"]).items()}
+    parameters = {name: _plain(value) for name, value in given.items() if name not in OPTIONS}
     told = run(model, parameters, only=[check], **options)
     bad = [
         (subject, finding) for subject, finding in told if convicts(finding) or (unless_tried and finding.verdict == "SKIPPED")
@@ -107,10 +108,8 @@ def _reproducing(
 ) -> list[str]:
     """The same as a line of Python and, for a model that has a name, as a line for the shell."""
     chosen = {name: value for name, value in options.items() if value != OPTIONS[name] and name != "threads"}
-    clash = any(name in (*OPTIONS, "parameters") or not name.isidentifier() for name in parameters)
-    keywords = {"parameters": dict(parameters)} if clash else dict(parameters)
     name = repr(model) if isinstance(model, str) else "model"
-    arguments = ", ".join([name, *(f"{key}={value!r}" for key, value in (keywords | chosen).items())])
+    arguments = ", ".join([name, *(f"{key}={value!r}" for key, value in (dict(parameters) | chosen).items())])
     lines = [f"  from albedo_lab.testing import {assertion}; {assertion}({arguments})"]
     spec = model if isinstance(model, str) else _known_as(model)
     if spec is None:
@@ -120,7 +119,7 @@ def _reproducing(
         words += ["-p", f"{key}={_listed(value)}"]
     words += ["--only", check]
     for key, value in chosen.items():
-        words += [f"--{key}", str(value)]
+        words += [f"--{FLAGS.get(key, key)}", str(value)]
     return [*lines, f"  {shlex.join(words)}"]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from albedo_lab import catalogue, custom
+from albedo_lab import catalogue
 from albedo_lab.analysis.albedo import albedo
 from albedo_lab.analysis.mean_albedo import mean_albedo
 from albedo_lab.catalogue import find
@@ -255,9 +255,9 @@ class TestOffered:
 
     @pytest.fixture
     def package(self, grey, monkeypatch):
-        entries = [EntryPoint("their_grey", "brdf:grey", custom.GROUP), EntryPoint("ward", "nowhere:f", custom.GROUP)]
-        entries.append(EntryPoint("broken", "nowhere:f", custom.GROUP))
-        monkeypatch.setattr(custom, "entry_points", lambda group: EntryPoints(entries).select(group=group))
+        entries = [EntryPoint("their_grey", "brdf:grey", catalogue.GROUP), EntryPoint("ward", "nowhere:f", catalogue.GROUP)]
+        entries.append(EntryPoint("broken", "nowhere:f", catalogue.GROUP))
+        monkeypatch.setattr(catalogue, "entry_points", lambda group: EntryPoints(entries).select(group=group))
         return grey
 
     def test_a_name_is_found(self, package):
@@ -266,12 +266,15 @@ class TestOffered:
 
     def test_the_catalogue_comes_first(self, package):
         assert find("ward").evaluate.__module__ == "albedo_lab.models.ward"
-        assert catalogue.offered() == ["broken", "their_grey"]
+        assert list(catalogue.offered()) == ["broken", "their_grey"]
 
     def test_one_that_cannot_be_loaded_is_told(self, package):
         result = run("show", "broken")
         assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
         assert "no module 'nowhere'" in result.stderr
+
+    def test_the_list_shows_them(self, package):
+        assert "offered by brdf:grey" in run("list").stdout
 
     def test_its_name_is_proposed(self, package):
         with pytest.raises(BadInput, match="did you mean their_grey"):

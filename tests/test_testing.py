@@ -113,9 +113,7 @@ def test_what_a_failure_tells(monkeypatch, assertion, verdict):
 
 def test_options_reach_the_check_and_the_line_that_reproduces(monkeypatch):
     trials = says(monkeypatch, "energy", Verdict.FAIL)
-    said = message(
-        assert_energy_conserving, find("phong"), seed=7, alpha=0.05, excess=0.1, budget=999, threads=1, n=[1, 2.5], parameters={}
-    )
+    said = message(assert_energy_conserving, find("phong"), seed=7, level=0.05, excess=0.1, budget=999, threads=1, n=[1, 2.5])
     assert {(t.seed, t.excess, t.budget, t.threads) for t in trials} == {(7, 0.1, 999, 1)}
     assert said.endswith("  albedo-lab check phong -p n=1,2.5 --only energy --seed 7 --alpha 0.05 --excess 0.1 --budget 999")
 
@@ -133,15 +131,13 @@ def test_several_values_of_any_kind(monkeypatch, values):
 def test_the_level_reaches_the_judge(monkeypatch):
     says(monkeypatch, "sampler", Verdict.OPEN, p_value=0.02)
     assert_sampler("phong")
-    message(assert_sampler, "phong", alpha=0.03)
+    message(assert_sampler, "phong", level=0.03)
 
 
-def test_a_parameter_that_bears_the_name_of_an_option(monkeypatch):
+def test_the_roughness_alpha_is_no_option(monkeypatch):
     says(monkeypatch, "energy", Verdict.FAIL)
-    with pytest.raises(BadInput, match="parameters="):
-        assert_energy_conserving("microfacet", alpha=0.3)
-    said = message(assert_energy_conserving, "microfacet", parameters={"alpha": 0.3})
-    assert "assert_energy_conserving('microfacet', parameters={'alpha': 0.3})" in said
+    said = message(assert_energy_conserving, "microfacet", alpha=0.3)
+    assert "assert_energy_conserving('microfacet', alpha=0.3)" in said
     assert "albedo-lab check microfacet -p alpha=0.3 --only energy" in said
 
 

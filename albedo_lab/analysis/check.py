@@ -24,7 +24,7 @@ from albedo_lab.errors import BadInput, Inconclusive
 from albedo_lab.estimate.record import exact
 from albedo_lab.model import Choice, File, Model
 
-ALPHA = 0.01
+LEVEL = 0.01
 T = TypeVar("T")
 LARGEST_BUDGET = 1 << 48
 Models = Model | str | Sequence[Model | str]
@@ -48,14 +48,13 @@ def check(
     *,
     only: Sequence[str] = (),
     skip: Sequence[str] = (),
-    alpha: float | None = None,
+    level: float = LEVEL,
     budget: int | None = None,
     excess: float = 1e-5,
     seed: int = 0,
     threads: int | None = None,
     progress: Progress | None = None,
-    parameters: Mapping[str, object] | None = None,
-    **more: object,
+    **parameters: object,
 ) -> pd.DataFrame:
     """Whether a model is plausible: energy balance, reciprocity, positivity, its sampler, and what its source claims of it.
 
@@ -65,8 +64,8 @@ def check(
         A Model, a name of the catalogue, or several of either.
     only, skip
         Names of checks, of CHECKS; all of them by default.
-    alpha
-        The probability, 0.01 by default, with which the whole run may accuse a sound model by chance (Holm's rule).
+    level
+        The probability with which the whole run may accuse a sound model by chance (Holm's rule); `--alpha` on the command line.
     budget
         How many evaluations one check may cost; 2^24 by default.
     excess
@@ -75,9 +74,8 @@ def check(
         The same seed gives the same bits, whatever the number of threads.
     progress
         Called with the number of checks done and the number of all, while they are made.
-    parameters, more
-        The model's parameters and `scale`; several values of several parameters make a grid, the first varying slowest. A
-        parameter that is called `alpha`, as the level is, goes into the mapping `parameters`.
+    parameters
+        The model's parameters and `scale`; several values of several parameters make a grid, the first varying slowest.
 
     Returns
     -------
@@ -94,13 +92,12 @@ def check(
     >>> check("lambert", only=["positivity"]).verdict.unique().tolist()
     ['PASS']
     """
-    given = named(model, parameters, more, alpha)
     told = run(
         model,
-        given,
+        parameters,
         only=only,
         skip=skip,
-        alpha=alpha,
+        level=level,
         budget=budget,
         excess=excess,
         seed=seed,
@@ -116,7 +113,7 @@ def run(
     *,
     only: Sequence[str] = (),
     skip: Sequence[str] = (),
-    alpha: float | None = None,
+    level: float = LEVEL,
     budget: int | None = None,
     excess: float = 1e-5,
     seed: int = 0,
@@ -125,7 +122,7 @@ def run(
 ) -> Told:
     """Every finding with its subject, as `check` tells them in its table. Raises BadInput."""
     names = selected(only, skip)
-    level = number("alpha", ALPHA if alpha is None else alpha, 0.0, 1.0, "must be a probability above 0 and below 1")
+    number("level", level, 0.0, 1.0, "must be a probability above 0 and below 1")
     trial = _trial(budget, excess, seed, threads)
     cells = [cell for each in several(model) for cell in grid(model_of(each), parameters)]
     steps = track(range(len(cells) * len(names)), progress)
@@ -178,22 +175,6 @@ def number(name: str, value: object, low: float, high: float, domain: str) -> fl
     if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not low < value < high:
         raise BadInput(name, value, domain)
     return float(value)
-
-
-def named(
-    model: Models, parameters: Mapping[str, object] | None, more: Mapping[str, object], alpha: float | None
-) -> dict[str, object]:
-    """All parameters that were given, by name. Raises BadInput where alpha may mean the level or a parameter."""
-    if alpha is not None and parameters is None:
-        for each in map(model_of, several(model)):
-            if any(parameter.name == "alpha" for parameter in each.parameters):
-                raise BadInput(
-                    "alpha", alpha, f"{each.name} has such a parameter: say parameters={{'alpha': ...}}, {{}} for none"
-                )
-    twice = set(parameters or {}) & set(more)
-    if twice:
-        raise BadInput(min(twice), more[min(twice)], "is given twice")
-    return {**(parameters or {}), **more}
 
 
 def short(subject: Subject, given: Mapping[str, object]) -> str:

@@ -32,6 +32,8 @@ MOST_ROUNDS = 6
 NEARLY = 1e-6
 GRAZING = (1e-8, 1e-10, 1e-12)
 STILL_GROWING = 0.95
+ROUNDING = 1e-13
+"""Relative: what the sums of quadrature and the interpolation leave, where their own bounds are smaller."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +89,8 @@ def supremum(model: Model, p: Any, order: str = "wi") -> Supremum:
     at_normal = at(0.0, phi, FINE).value
     if at_normal >= peak - error - bound:
         t, peak = 0.0, max(peak, at_normal)
-    return Supremum(bounded(peak, error + bound, samples, "quadrature"), 1.0 / math.cosh(t), phi, error, "bounded")
+    within = error + bound + ROUNDING * abs(peak)
+    return Supremum(bounded(peak, within, samples, "quadrature"), 1.0 / math.cosh(t), phi, error, "bounded")
 
 
 def grazing_limit(model: Model, p: Any, phi: float, order: str) -> Estimate:

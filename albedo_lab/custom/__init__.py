@@ -13,7 +13,6 @@ has no sampler and the constant 1; whoever has one writes a Model.
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib.metadata import EntryPoint, entry_points
 from types import FunctionType
 from typing import Any
 
@@ -23,19 +22,12 @@ from albedo_lab.custom.probe import try_out
 from albedo_lab.errors import BadInput
 from albedo_lab.model import Model
 
-GROUP = "albedo_lab.models"
-
 _made: dict[tuple[str, Source], tuple[Loaded, Model]] = {}
 
 
 def is_own(spec: str) -> bool:
     """Whether that is the place of a model rather than a name."""
     return ":" in spec or spec.endswith(".py")
-
-
-def offered() -> dict[str, EntryPoint]:
-    """What installed packages offer in the entry-point group `albedo_lab.models`, by name; nothing is imported."""
-    return {entry.name: entry for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name)}
 
 
 def model_at(spec: str, name: str | None = None) -> Model:

@@ -23,7 +23,7 @@ FORMS = "it must be f(wi, wo), f(wi, wo, alpha=0.3, ...), or f(p: P, wi, wo) wit
 LARGEST = 1e300
 OPTIONS = {"model", "scale", "mu", "theta", "theta_deg", "phi", "phi_deg", "tolerance", "method", "seed", "threads", "progress"}
 COLUMNS = {"samples", "order", "non_finite", "standard_error", "ci95_low", "ci95_high"}
-RESERVED = OPTIONS | COLUMNS | {"only", "skip", "budget", "excess"}
+RESERVED = OPTIONS | COLUMNS | {"only", "skip", "level", "budget", "excess"}
 """What the analyses call their own options and columns."""
 ARGUMENTS = {"evaluate": "p, wi, wo", "sample": "p, wo, u1, u2", "pdf": "p, wi, wo", "weight": "p, wo, u1, u2", "mirror": "p, mu"}
 

@@ -107,6 +107,8 @@ def _wanted(estimate: Estimate, tolerance: Tolerance, rate: float) -> float:
     allowed = tolerance.at(estimate.value)
     if not RESOLUTION * abs(estimate.value) <= allowed:
         return math.inf
+    if allowed == 0.0:  # relative to an albedo of 0
+        return 0.0 if estimate.half_width == 0.0 else math.inf
     by_error: float = estimate.samples * math.pow(max(estimate.half_width, 1e-300) / allowed, 1.0 / rate)
     return max(by_error, UNSEEN * abs(estimate.value) / allowed)
 

@@ -153,6 +153,11 @@ def _feed(thing: Any, bindings: dict[str, Any], digest: Any, seen: set[int]) -> 
             if name in thing.__globals__:
                 digest.update(name.encode())
                 _feed(thing.__globals__[name], bindings, digest, seen)
+        for path in sorted(set(_attribute_paths(thing.__code__))):
+            value = _in_module(thing.__globals__, path)
+            if value is not None:
+                digest.update(".".join(path).encode())
+                _feed(value, bindings, digest, seen)
     elif isinstance(thing, types.ModuleType | type) or callable(thing):
         fields = getattr(thing, "_fields", "")
         digest.update(f"{getattr(thing, '__module__', '')}.{getattr(thing, '__qualname__', thing)}{fields}".encode())
@@ -183,3 +188,29 @@ def _global_names(code: types.CodeType) -> Iterator[str]:
     for constant in code.co_consts:
         if isinstance(constant, types.CodeType):
             yield from _global_names(constant)
+
+
+def _attribute_paths(code: types.CodeType) -> Iterator[tuple[str, ...]]:
+    """Every chain of names that a function follows from a global: settings.SIZE is ("settings", "SIZE")."""
+    path: tuple[str, ...] = ()
+    for instruction in dis.get_instructions(code):
+        if instruction.opname == "LOAD_GLOBAL":
+            path = (instruction.argval,)
+        elif path and instruction.opname in ("LOAD_ATTR", "LOAD_METHOD"):
+            path = (*path, instruction.argval)
+            yield path
+        else:
+            path = ()
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            yield from _attribute_paths(constant)
+
+
+def _in_module(namespace: dict[str, Any], path: tuple[str, ...]) -> Any:
+    """What a chain of names that begins with a module leads to, when no module lies at its end; compiled code holds it fixed."""
+    value = namespace.get(path[0])
+    for name in path[1:]:
+        if not isinstance(value, types.ModuleType):
+            return None
+        value = getattr(value, name, None)
+    return None if isinstance(value, types.ModuleType) else value

@@ -56,11 +56,13 @@ class Printed:
 
 
 class Kind(StrEnum):
-    """The three verdicts, as the summary counts them."""
+    """The verdicts, as the summary counts them; HOLDS is for statements without digits."""
 
     AGREES = "agrees to the printed digits"
+    HOLDS = "holds"
     OFF = "off in the last digit"
     REFUTED = "refuted"
+    UNDECIDED = "cannot be decided from the text"
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from decimal import ROUND_UP, Decimal
-from fractions import Fraction
 
+from albedo_lab.digits import with_error
 from albedo_lab.estimate.record import Estimate
-from albedo_lab.papers.audit import Cell, Finding, Table
+from albedo_lab.papers.record import Cell, Finding, Table
 from albedo_lab.papers.verdict import Kind
-from albedo_lab.report.formats import LATEX, as_csv, as_latex, as_markdown
+from albedo_lab.report.formats import as_csv, as_latex, as_markdown
+from albedo_lab.report.tex import TEX, tex
 
 READER = ("model", "at", "printed", "ours", "verdict")
 DOUBTER = (*READER[:-1], "by another way", READER[-1])
@@ -19,57 +19,26 @@ QUANTITIES = {
     "overshoot_angle_deg": "its angle in degrees",
     "grazing_albedo": "albedo at 90°",
 }
+ANSWERED = ("constant", "mean_albedo", "albedo")
+"""Quantities that the table's title names."""
 SYMBOLS = {"theta_deg": "θ"}
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-TEX = str.maketrans(
-    {
-        "±": r"$\pm$",
-        "·": r"$\cdot$",
-        "∞": r"$\infty$",
-        "→": r"$\to$",
-        "−": "$-$",
-        "θ": r"$\theta$",
-        "μ": r"$\mu$",
-        "°": r"$^\circ$",
-        "∫": r"$\int$",
-        "ₙ": "$_n$",
-        "§": r"\S",
-        "ã": r"\~a",
-        "⁻": "$^-$",
-    }
-    | {character: f"$^{digit}$" for digit, character in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}
-)
 
 
 def place(cell: Cell) -> str:
-    """Where in the space of parameters a cell stands: "n = 1", "m = 0.1, θ = 89.995°"."""
+    """Where in the space of parameters a cell stands: "n = 1", "m = 0.1, θ = 89.995°"; and its quantity, if that must be said."""
     words = []
     for name, value in cell.parameters.items():
         number = "∞" if value == float("inf") else f"{value:.10g}"
         words.append(f"{SYMBOLS.get(name, name)} = {number}{'°' * name.endswith('_deg')}".replace("= ∞", "→ ∞"))
-    if cell.quantity in QUANTITIES:
-        words.append(QUANTITIES[cell.quantity])
+    if cell.quantity not in ANSWERED:
+        words.append(QUANTITIES.get(cell.quantity, cell.quantity.replace("_", " ")))
     return ", ".join(words)
 
 
 def as_printed(text: str) -> str:
     """A number as the document sets it: 7.8e-3 is 7.8·10⁻³ there."""
     return re.sub(r"e(.+)", lambda power: "·10" + power[1].translate(SUPERSCRIPTS), text)
-
-
-def with_error(e: Estimate, finest: float = 0.0) -> str:
-    """The figure ± half of its interval, to one digit, rounded up, and not finer than `finest`; a limit as a fraction.
-
-    >>> with_error(Estimate(5.33417739, 3e-13, 5.334177389, 5.334177391, 99, "quadrature"), finest=1e-5)
-    '5.33418 ± 0.00001'
-    """
-    if e.half_width == 0.0:
-        fraction = Fraction(e.value).limit_denominator(100)
-        return str(fraction) if float(fraction) == e.value else f"{e.value:.7g}"
-    last = Decimal(1).scaleb(Decimal(max(e.half_width, finest) * (1.0 + 1e-9)).adjusted())
-    value = Decimal(e.value).quantize(last)
-    half_width = max(Decimal(e.high) - value, value - Decimal(e.low)).quantize(last, ROUND_UP)
-    return f"{value:f} ± {half_width:f}"
 
 
 def ours(finding: Finding) -> str:
@@ -132,7 +101,7 @@ def figures(name: str, e: Estimate, prefix: str = "") -> dict[str, object]:
 
 
 def markdown_table(table: Table, findings: Sequence[Finding]) -> str:
-    """A page: title, the cells, the note, and the doubted cells once more by other ways."""
+    """A page: title, the note, the cells, and the doubted cells once more by other ways."""
     parts = [f"# {table.title}: {table.place}", table.note, as_markdown(READER, reader_rows(findings))]
     doubted = [f for f in findings if f.verdict.kind is not Kind.AGREES or len(f.again) > 1]
     if doubted:
@@ -140,14 +109,14 @@ def markdown_table(table: Table, findings: Sequence[Finding]) -> str:
     return "\n\n".join(part.strip() for part in parts) + "\n"
 
 
-def latex_table(table: Table, findings: Sequence[Finding]) -> str:
+def latex_table(label: str, table: Table, findings: Sequence[Finding]) -> str:
     """A floating table for a document that uses booktabs, its model named once."""
     rows = reader_rows(findings)
     for row, before in reversed(list(zip(rows[1:], rows, strict=False))):
         row[0] = "" if row[0] == before[0] else row[0]
     head, body = as_latex(READER, rows).translate(TEX).split("\n", 1)
-    caption = f"{table.title} ({table.place}): as printed, and recomputed with an error bound.".translate(LATEX | TEX)
+    caption = tex(f"{table.title} ({table.place}): as printed, and recomputed with an error bound.")
     return (
-        f"{head}\n\\begin{{table}}\n\\centering\\footnotesize\n\\caption{{{caption}}}\\label{{tab:{table.name}}}\n"
+        f"{head}\n\\begin{{table}}\n\\centering\\footnotesize\n\\caption{{{caption}}}\\label{{tab:{label}}}\n"
         f"{body}\\end{{table}}\n"
     )

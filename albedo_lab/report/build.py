@@ -1,37 +1,76 @@
-"""Writes the audit of the documents: a front page, and for each document its tables and figures."""
+"""Writes the audit of the documents: one page of HTML, a front page in Markdown, and files for every table and picture."""
 
 from __future__ import annotations
 
 import itertools
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from importlib import import_module
 from pathlib import Path
-from pkgutil import iter_modules
 
-import pandas as pd
-
-from albedo_lab import papers as room
+from albedo_lab.analysis.card import Facts
+from albedo_lab.analysis.request import effort
+from albedo_lab.analysis.verdict import Verdict
 from albedo_lab.errors import BadInput
 from albedo_lab.files import write_whole
-from albedo_lab.papers.audit import Finding, Paper, Plot, Spectra, Table, examine, printed_points, trace, trace_spectra
-from albedo_lab.papers.verdict import RULE, Kind
-from albedo_lab.report.audit_tables import DOUBTER, csv_table, doubter_rows, latex_table, markdown_table
-from albedo_lab.report.formats import as_markdown, format_table
-from albedo_lab.report.plots import picture, spectra_picture
+from albedo_lab.papers import find_paper, paper_names
+from albedo_lab.papers.cost_claims import CLAIMS
+from albedo_lab.papers.record import Paper
+from albedo_lab.papers.timing import TIMINGS
+from albedo_lab.report.audit_tables import csv_table, latex_table, markdown_table
+from albedo_lab.report.audited import Audited, audit, frames, steps
+from albedo_lab.report.cards import (
+    CHECKED,
+    CLAIMED,
+    FIGURES,
+    PARAMETERS,
+    SAMPLED,
+    Card,
+    card_files,
+    cards,
+    check_rows,
+    claim_rows,
+    figure_rows,
+    parameter_rows,
+    sampling_rows,
+)
+from albedo_lab.report.drawing import render
+from albedo_lab.report.findings import WORDS
+from albedo_lab.report.formats import as_csv, format_table
+from albedo_lab.report.front import front_page
+from albedo_lab.report.html.page import page
+from albedo_lab.report.manifest import NAME as MANIFEST
+from albedo_lab.report.manifest import left_over, manifest
+from albedo_lab.report.statements import (
+    csv_errata,
+    csv_statements,
+    latex_errata,
+    latex_statements,
+    longtable,
+    markdown_errata,
+    markdown_statements,
+)
+from albedo_lab.report.timings import FOLDER, timings_are_there, write_timings
+from albedo_lab.report.workers import Step, Task, worked
 
-HEAD = """\
-# The documents on trial
+Files = dict[str, bytes]
+Drawn = Mapping[str, Mapping[str, bytes]]
 
-Every printed figure below was recomputed, and each of ours carries its error. `make reports` writes these pages
-again, the same byte for byte.
-
-## How a figure is judged
-
-Ours comes from adaptive quadrature; the number after ± bounds its error, and is shown no finer than a thousandth of
-the last printed unit. Every figure is computed again by another way that shares no integration with the first,
-randomised quasi-Monte Carlo (rqmc, ± half of its 95 % interval); limits are argued, and approached by quadrature.
-The csv files hold both, with every digit.
+CARD_STEPS = 250
+"""How much of the progress the model cards are: about as long as so many figures take."""
+TIMING_STEPS = 40
+CARD_TABLES: Mapping[str, tuple[str, Sequence[str], Callable[[Facts], Sequence[Sequence[str]]]]] = {
+    "albedo": ("Albedo of every model at its default parameters.", ("figure", *FIGURES[1:]), figure_rows),
+    "parameters": ("Parameters of every model.", PARAMETERS, parameter_rows),
+    "checks": ("What the checks found of every model at its default parameters.", CHECKED, check_rows),
+    "claims": ("What the authors of the models claim, and what was found.", CLAIMED, claim_rows),
+    "sampling": ("How good every model's own sampler is.", SAMPLED, sampling_rows),
+}
+"""Tables of the model cards: their title, their columns, and their rows for one model."""
+ALL_TABLES = r"""% Every table of the audit; pdflatex tables.tex, twice.
+\documentclass[a4paper,10pt]{article}
+\usepackage[landscape,margin=15mm]{geometry}
+\usepackage{amsmath,amssymb,array,booktabs,longtable}
+\sloppy
+\begin{document}
 """
 
 
@@ -41,120 +80,150 @@ def write_reports(
     seed: int = 0,
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
+    timings: bool = False,
+    processes: int = 1,
 ) -> None:
     """Recomputes the documents of those names, all of them by default, and writes their reports under `directory`.
 
-    No file is written before everything is computed. Raises BadInput for an unknown name or a folder that cannot be made.
+    A run over all documents makes the model cards as well, measures the times where `timings` says so or none are there, and
+    removes what an earlier run wrote and it does not. No file is written before everything else is computed. The bytes are the
+    same whatever the number of processes, which share the threads between them.
+    Raises BadInput for an unknown name or a folder that cannot be made.
     """
-    audited = [find_paper(name) for name in dict.fromkeys(papers or paper_names())]
+    chosen = [find_paper(name) for name in dict.fromkeys(papers or paper_names())]
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise BadInput("output", str(directory), f"must be a folder that can be written ({error.strerror})") from None
-    step = stepper(sum(len(table.cells) for paper in audited for table in paper.tables), progress)
-    files: dict[str, str | bytes] = {}
-    sections = []
-    for paper in audited:
-        findings = {table.name: [step(f) for f in examine(table.cells, seed, threads)] for table in paper.tables}
-        for table in paper.tables:
-            files |= table_files(f"{paper.name}/{table.name}", table, findings[table.name])
-        for plot in paper.plots:
-            files |= plot_files(f"{paper.name}/{plot.name}", plot, trace(plot, threads))
-        for spectra in paper.spectra:
-            files |= spectra_files(f"{paper.name}/{spectra.name}", spectra, *trace_spectra(spectra, threads))
-        sections.append(paper_section(paper, findings))
-    files["README.md"] = "\n".join([HEAD, RULE, "", *sections])
+    timing = not papers and (timings or not timings_are_there(directory))
+    length = sum(steps(paper) + len(paper.figures) for paper in chosen) + CARD_STEPS * (not papers)
+    count = itertools.count(1)
+
+    def step() -> None:
+        if progress is not None:
+            progress(next(count), length + TIMING_STEPS * timing)
+
+    audits, drawn, models = work_out(chosen, not papers, seed, threads, processes, step)
+    files = {name: content for audited in audits for name, content in document_files(audited, drawn).items()}
+    files |= {f"models/{name}": content for name, content in model_files(models).items()}
+    files |= common_files(audits, drawn, models, {} if papers else timing_pages(), seed)
+    files[MANIFEST] = manifest(files, seed).encode()
+    if timing:
+        write_timings(directory, in_steps(TIMING_STEPS, step))
+    for path in [] if papers else left_over(directory, files):
+        path.unlink()
     for name, content in files.items():
         path = directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(path, content)
 
 
-def stepper(total: int, progress: Callable[[int, int], None] | None) -> Callable[[Finding], Finding]:
-    """Passes findings on and tells progress."""
-    count = itertools.count(1)
-
-    def step(finding: Finding) -> Finding:
-        if progress is not None:
-            progress(next(count), total)
-        return finding
-
-    return step
-
-
-def paper_names() -> list[str]:
-    """The documents on trial: the modules of the room that hold one."""
-    names = (module.name for module in iter_modules(room.__path__))
-    return sorted(name for name in names if hasattr(import_module(f"{room.__name__}.{name}"), "PAPER"))
+def work_out(
+    papers: Sequence[Paper], whole: bool, seed: int, threads: int | None, processes: int, step: Step
+) -> tuple[list[Audited], dict[str, dict[str, bytes]], list[Card]]:
+    """The documents after their trials, all their pictures, and of a whole run the model cards; the longest work comes first."""
+    share = threads if processes == 1 else max(1, effort(None, "rqmc", seed, threads).threads // processes)
+    tasks = [Task(carded, (seed, share))] if whole else []
+    tasks += [Task(heard, (paper.name, seed, share)) for paper in sorted(papers, key=steps, reverse=True)]
+    answers = worked(tasks, processes, step)
+    models: list[Card] = answers.pop(0) if whole else []
+    found = {audited.paper.name: (audited, pictures) for audited, pictures in answers}
+    drawn = {name: picture for paper in papers for name, picture in found[paper.name][1].items()}
+    return [found[paper.name][0] for paper in papers], drawn, models
 
 
-def find_paper(name: str) -> Paper:
-    """The document of that name. Raises BadInput for an unknown one."""
-    known = paper_names()
-    if name not in known:
-        raise BadInput("paper", name, f"must be one of {', '.join(known)}")
-    found: Paper = import_module(f"{room.__name__}.{name}").PAPER
-    return found
+def heard(name: str, seed: int, threads: int | None, step: Step) -> tuple[Audited, dict[str, dict[str, bytes]]]:
+    """A document after its trial, and its pictures."""
+    audited = audit(find_paper(name), seed, threads, step)
+    return audited, draw(audited, step)
 
 
-def table_files(base: str, table: Table, findings: Sequence[Finding]) -> dict[str, str | bytes]:
-    """A table in its three formats."""
-    return {
-        f"{base}.md": markdown_table(table, findings),
-        f"{base}.csv": csv_table(findings),
-        f"{base}.tex": latex_table(table, findings),
-    }
+def carded(seed: int, threads: int | None, step: Step) -> list[Card]:
+    """The model cards, in CARD_STEPS steps."""
+    return cards(seed, threads, in_steps(CARD_STEPS, step))
 
 
-def plot_files(base: str, plot: Plot, data: pd.DataFrame) -> dict[str, str | bytes]:
-    """A plot in its two formats, and its data."""
-    pictures = {f"{base}.{kind}": content for kind, content in picture(plot, data, printed_points(plot)).items()}
-    return pictures | {f"{base}.csv": format_table(data, "csv")}
+def in_steps(size: int, step: Step) -> Callable[[int, int], None]:
+    """What work is told its progress with that counts in units of its own: so many steps in all."""
+    told = 0
+
+    def tell(done: int, total: int) -> None:
+        nonlocal told
+        while told < size * done // total:
+            told += 1
+            step()
+
+    return tell
 
 
-def spectra_files(base: str, spectra: Spectra, albedos: pd.DataFrame, colours: pd.DataFrame) -> dict[str, str | bytes]:
-    """Spectra in two formats, and their data."""
-    pictures = {f"{base}.{kind}": content for kind, content in spectra_picture(spectra, albedos, colours).items()}
-    return pictures | {f"{base}.csv": format_table(albedos, "csv"), f"{base}_colours.csv": format_table(colours, "csv")}
+def draw(audited: Audited, step: Step) -> dict[str, dict[str, bytes]]:
+    """Every picture of a document as svg and png, by document and name ("neumann1999/figure_5")."""
+    drawn = {}
+    for figure, data in audited.figures():
+        drawn[f"{audited.paper.name}/{figure.name}"] = render(figure.picture, data)
+        step()
+    return drawn
 
 
-def paper_section(paper: Paper, findings: Mapping[str, Sequence[Finding]]) -> str:
-    """What the front page says of a document: counts, every figure that does not hold, pictures."""
-    counts, failures = [], []
-    for table in paper.tables:
-        link = f"[{table.title}]({paper.name}/{table.name}.md)"
-        counts.append([table.place, link, *tally(findings[table.name]), links(paper, table.name, "csv", "tex")])
-        doubted = [f for f in findings[table.name] if f.verdict.kind is not Kind.AGREES]
-        failures += [[table.place, *row] for row in doubter_rows(doubted)]
-    everything = [f for table in paper.tables for f in findings[table.name]]
-    counts.append(["", "**all**", *(f"**{number}**" for number in tally(everything)), ""])
-    pictures = [shown(paper, plot, links(paper, plot.name, "svg", "png", "csv")) for plot in paper.plots]
-    for spectra in paper.spectra:
-        files = f"{links(paper, spectra.name, 'svg', 'png', 'csv')}; colours: {links(paper, f'{spectra.name}_colours', 'csv')}"
-        pictures.append(shown(paper, spectra, files))
-    return "\n".join(
-        [
-            f"## {paper.name}\n\n{paper.citation}.\n\n{paper.note}\n",
-            as_markdown(("place", "what", *Kind, "files"), counts),
-            "### What does not hold\n",
-            as_markdown(("place", *DOUBTER), failures),
-            *pictures,
+def document_files(audited: Audited, drawn: Drawn) -> Files:
+    """Tables, statements and pictures of a document, each in its formats."""
+    name = audited.paper.name
+    files: dict[str, str | bytes] = {}
+    for table, findings in audited.tables():
+        base = f"{name}/{table.name}"
+        files[f"{base}.md"] = markdown_table(table, findings)
+        files[f"{base}.csv"] = csv_table(findings)
+        files[f"{base}.tex"] = latex_table(f"{name}-{table.name}", table, findings)
+    if audited.evidence:
+        files[f"{name}/statements.md"] = markdown_statements(audited)
+        files[f"{name}/statements.csv"] = csv_statements(audited)
+        files[f"{name}/statements.tex"] = latex_statements(audited)
+    for figure, data in audited.figures():
+        base = f"{name}/{figure.name}"
+        files |= {f"{base}.{kind}": content for kind, content in drawn[base].items()}
+        files |= {f"{base}{'_' * bool(of)}{of}.csv": format_table(table, "csv") for of, table in frames(data).items()}
+    return encoded(files)
+
+
+def model_files(models: Sequence[Card]) -> Files:
+    """The model cards, and each kind of their tables as one for all models."""
+    files = {name: content for card in models for name, content in card_files(card).items()}
+    for name, (title, head, rows_of) in CARD_TABLES.items() if models else ():
+        rows = [
+            [card.name, *(WORDS[cell] if isinstance(cell, Verdict) else cell for cell in row)]
+            for card in models
+            for row in rows_of(card.facts)
         ]
+        widths = [3.2, *((24.0 - 3.2) / len(head) for _ in head)]
+        files[f"{name}.csv"] = as_csv(("model", *head), rows)
+        files[f"{name}.tex"] = longtable(title, f"models-{name}", ("model", *head), widths, rows)
+    return encoded(files)
+
+
+def timing_pages() -> dict[str, str]:
+    """Which pages of measured times there are, by title."""
+    pages = {f"{timing.title}, {timing.place}": f"{FOLDER}/{timing.name}.md" for timing in TIMINGS}
+    return pages | {f"All {len(CLAIMS)} sentences about time or cost": f"{FOLDER}/claims.md"}
+
+
+def common_files(audits: Sequence[Audited], drawn: Drawn, models: Sequence[Card], timed: Mapping[str, str], seed: int) -> Files:
+    """The pages over all documents and models."""
+    tables = [f"{a.paper.name}/{t.name}" for a in audits for t in a.paper.tables]
+    long = [f"{a.paper.name}/statements" for a in audits if a.evidence]
+    long += ["errata", *(f"models/{name}" for name in CARD_TABLES if models)]
+    inputs = "".join(f"\\input{{{name}}}\n" for name in tables) + "".join(f"\\clearpage\\input{{{name}}}\n" for name in long)
+    return encoded(
+        {
+            "index.html": page(audits, drawn, models, seed, timed),
+            "README.md": front_page(audits, {card.name: f"models/{card.name}.md" for card in models}, timed),
+            "errata.md": markdown_errata(audits),
+            "errata.csv": csv_errata(audits),
+            "errata.tex": latex_errata(audits),
+            "tables.tex": f"{ALL_TABLES}{inputs}\\end{{document}}\n",
+        }
     )
 
 
-def shown(paper: Paper, plot: Plot | Spectra, files: str) -> str:
-    """A picture with its caption and its files."""
-    picture_of = f"![{plot.title}]({paper.name}/{plot.name}.svg)"
-    return f"### {plot.place.capitalize()}\n\n{picture_of}\n\n{plot.caption} Files: {files}.\n"
-
-
-def tally(findings: Sequence[Finding]) -> list[str]:
-    """How many verdicts there are of each kind."""
-    number = Counter(f.verdict.kind for f in findings)
-    return [str(number[kind]) for kind in Kind]
-
-
-def links(paper: Paper, name: str, *kinds: str) -> str:
-    """Markdown links to the files of a table or a plot."""
-    return ", ".join(f"[{kind}]({paper.name}/{name}.{kind})" for kind in kinds)
+def encoded(files: Mapping[str, str | bytes]) -> Files:
+    """Every file as it is written."""
+    return {name: content.encode() if isinstance(content, str) else content for name, content in files.items()}

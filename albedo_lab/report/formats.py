@@ -8,8 +8,9 @@ import json
 import math
 import re
 from collections.abc import Callable, Iterable, Sequence
-from decimal import ROUND_UP, Decimal
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from albedo_lab.digits import as_text, justified
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -129,36 +130,8 @@ def readable(names: Sequence[str], rows: Rows) -> list[Column]:
             columns.append(Column(HALF_WIDTH, [half_width for _, half_width in pairs], numeric=True, figure=True))
         elif quantity is None or name not in ERROR:
             numeric = all(isinstance(value, int | float) for value in column)
-            columns.append(Column(name, [cell(value) for value in column], numeric))
+            columns.append(Column(name, [as_text(value) for value in column], numeric))
     return columns
-
-
-def justified(value: float, low: float, high: float) -> tuple[str, str]:
-    """The value to the second digit of its interval's half-width, and that half-width rounded up to two digits.
-
-    >>> justified(0.9504312345, 0.9504194, 0.9504431)
-    ('0.950431', '1.2e-05')
-    >>> justified(0.5, 0.5, 0.5)
-    ('0.5', '0')
-    """
-    half_width = max(high - value, value - low)
-    if not (math.isfinite(value) and 0.0 < half_width < math.inf):
-        return cell(value), cell(half_width)
-    exact = Decimal(repr(half_width))
-    last = exact.adjusted() - 1
-    rounded_up = float(exact.quantize(Decimal(1).scaleb(last), ROUND_UP))
-    if value == 0.0 or 1e-4 <= abs(value) < 1e12:
-        text = f"{value:.{min(max(-last, 0), 16)}f}"
-    else:
-        text = f"{value:.{min(max(Decimal(repr(value)).adjusted() - last, 0), 16)}e}"
-    return text, f"{rounded_up:#.2g}".rstrip(".")
-
-
-def cell(value: object) -> str:
-    """A value for a person: numbers to twelve digits, nothing for None."""
-    if isinstance(value, float):
-        return f"{value:.12g}"
-    return "" if value is None else str(value)
 
 
 def _padded(column: Column) -> list[str]:

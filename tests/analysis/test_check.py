@@ -79,10 +79,10 @@ def test_only_and_skip(stubs, options, left):
         ({"skip": [""]}, "skip = ''"),
         ({"skip": NAMES}, "leaves no check"),
         ({"only": ["energy"], "skip": ["energy"]}, "leaves no check"),
-        ({"alpha": 0.0}, "alpha = 0.0"),
-        ({"alpha": 1}, "alpha = 1"),
-        ({"alpha": math.nan}, "alpha = nan"),
-        ({"alpha": "small"}, "alpha = 'small'"),
+        ({"level": 0.0}, "level = 0.0"),
+        ({"level": 1}, "level = 1"),
+        ({"level": math.nan}, "level = nan"),
+        ({"level": "small"}, "level = 'small'"),
         ({"budget": 0}, "budget = 0"),
         ({"budget": 1.5}, "budget = 1.5"),
         ({"budget": 1 << 60}, "budget = "),
@@ -93,7 +93,6 @@ def test_only_and_skip(stubs, options, left):
         ({"threads": 0}, "threads = 0"),
         ({"n": -1}, "n = -1"),
         ({"q": 1}, "phong has no such parameter"),
-        ({"parameters": {"n": 1}, "n": 2}, "n = 2: is given twice"),
     ],
 )
 def test_refused_before_anything_is_tried(stubs, options, said):
@@ -110,14 +109,9 @@ def test_a_later_model_is_refused_before_the_first_is_tried(stubs):
     assert stubs == []
 
 
-def test_alpha_is_never_taken_for_the_other_alpha(stubs):
-    """The roughness of a microfacet model bears the level's name."""
-    with pytest.raises(BadInput, match="parameters="):
-        albedo_lab.check("microfacet", alpha=0.3)
-    table = albedo_lab.check("microfacet", only=["energy"], alpha=0.02, parameters={"alpha": [0.2, 0.3]})
+def test_alpha_is_the_roughness_and_not_the_level(stubs):
+    table = albedo_lab.check("microfacet", only=["energy"], level=0.02, alpha=[0.2, 0.3])
     assert table.alpha.tolist() == [0.2, 0.3]
-    assert albedo_lab.check("microfacet", only=["energy"], alpha=0.02, parameters={}).alpha.tolist() == [0.1]
-    assert albedo_lab.check("microfacet", only=["energy"]).alpha.tolist() == [0.1]
 
 
 def test_what_goes_wrong_in_a_check_is_its_finding(stubs, monkeypatch):
@@ -187,7 +181,7 @@ def test_one_level_for_all_tests_of_a_run(stubs, monkeypatch):
 
     assert verdicts("phong") == ["FAIL"]
     assert verdicts(list(chances)) == ["PASS"] * 3
-    assert verdicts(list(chances), alpha=0.02) == ["FAIL", "PASS", "PASS"]
+    assert verdicts(list(chances), level=0.02) == ["FAIL", "PASS", "PASS"]
     assert verdicts("phong", n=[1, 2, 3]) == ["PASS"] * 3  # the cells of a grid are tests of the same run
     chances["lambert"] = 0.001
     assert verdicts(list(chances)) == ["FAIL", "FAIL", "PASS"]
@@ -260,4 +254,4 @@ def test_a_sick_model_is_convicted_and_a_sound_one_is_not():
     assert status(told) == 1
     assert "energy" in {f.check for f in convicted}
     assert all(f.witness for f in convicted if f.check == "energy")
-    assert module.ALPHA == 0.01
+    assert module.LEVEL == 0.01

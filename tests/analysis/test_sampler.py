@@ -81,14 +81,19 @@ def test_no_sound_sampler_is_accused(name: str) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "values"), [("phong", {"n": 20.0}), ("ward", {"m": 1e-3}), ("blinn", {"n": 1.0})])
-def test_probabilities_are_uniform(name: str, values: dict[str, Any]) -> None:
-    """Of chi-square and of the estimators, over seeds: Kolmogorov's distance, 1.95 / sqrt(n) at one in a thousand."""
+def test_probabilities_are_those_of_chance(name: str, values: dict[str, Any]) -> None:
+    """Over seeds, by Kolmogorov's distance, 1.95 / sqrt(n) at one in a thousand: those of chi-square are uniform.
+
+    Of the estimators they are no smaller than that, which is what the level promises; larger they may be, since the bound of the
+    quadrature over the cells counts as if it were noise.
+    """
     findings = [f for seed in range(20) for f in sampler(subject(catalogue.find(name), values), Trial(seed=seed, budget=1 << 22))]
     for what in ("samples against", "estimators of"):
         p = np.sort([f.p_value for f in findings if f.p_value is not None and f.statement.startswith(what)])
         assert len(p) >= 40
         ranks = np.arange(len(p)) / len(p)
-        assert max(np.max(p - ranks), np.max(ranks + 1.0 / len(p) - p)) < 1.95 / math.sqrt(len(p))
+        assert np.max(ranks + 1.0 / len(p) - p) < 1.95 / math.sqrt(len(p))
+        assert what == "estimators of" or np.max(p - ranks) < 1.95 / math.sqrt(len(p))
 
 
 # Sick ones, made of sound ones
@@ -188,14 +193,14 @@ def test_sick_samplers_are_convicted(fault: str) -> None:
 def test_who_convicts() -> None:
     """A weight without its density is told by the estimators alone, a density too large by its integral, at every viewer."""
     told = judged(sampler(subject(*SICK["1 / density missing in the weight"]), QUICK), ALPHA)
-    assert [f.statement[:10] for f in told if f.verdict is Verdict.FAIL] == 3 * ["estimators"]
+    assert [f.statement[:10] for f in told if f.verdict is Verdict.FAIL] == len(VIEWERS) * ["estimators"]
     told = judged(sampler(subject(*SICK["density 1 % too large"]), QUICK), ALPHA)
-    assert sum(f.statement.startswith("density and") and f.verdict is Verdict.FAIL for f in told) == 3
+    assert sum(f.statement.startswith("density and") and f.verdict is Verdict.FAIL for f in told) == len(VIEWERS)
 
 
 def test_a_fault_has_a_witness() -> None:
     found = [f for f in sampler(subject(*SICK["negative density"]), QUICK) if f.verdict is Verdict.FAIL]
-    assert len(found) == 3
+    assert len(found) == len(VIEWERS)
     assert page.FAULTS[BAD_DENSITY] in found[0].statement
     assert "density = -" in found[0].witness
 

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from itertools import count
 from statistics import median
 
+from albedo_lab.analysis.clock import Times, interleave, ratio, timed
 from albedo_lab.estimate.record import NORMAL_975, Estimate
 from albedo_lab.estimate.sampling import monte_carlo, rqmc
 from tests.benchmarks.baseline_scipy import by_cubature, by_dblquad
 from tests.benchmarks.subjects import MU, SUBJECTS, Subject
 from tests.benchmarks.tables import digits, seconds, table, verdict
-from tests.benchmarks.timing import Times, interleave, ratio, timed
 
 ACCURACIES = (1e-4, 1e-5, 1e-6, 1e-9)
 RANDOM = (1e-4, 1e-5, 1e-6)
@@ -102,10 +102,11 @@ def value(integrate: Callable[..., float], careful: bool, subject: Subject, tole
 def ratios(times: Times) -> list[str]:
     """What the table must show."""
     plain, fine = "dblquad, plain", 1e-9
-    lines = [f"- plain Monte Carlo over rqmc at 1e-06: {verdict(ratio(times, 'mc 1e-06', str(('rqmc', 1e-6))), 10_000.0)}"]
+    lines = [f"- plain Monte Carlo over rqmc at 1e-06: {verdict(ratio(times, 'mc 1e-06', str(('rqmc', 1e-6))).value, 10_000.0)}"]
     quadrature = str(("quadrature", fine))
-    lines.append(f"- {plain} over quadrature at 1e-09: {verdict(ratio(times, str((plain, fine)), quadrature), 100.0)}")
+    lines.append(f"- {plain} over quadrature at 1e-09: {verdict(ratio(times, str((plain, fine)), quadrature).value, 100.0)}")
     others = [method for method in SCIPY if method != plain]
     return lines + [
-        f"- {method} over quadrature at 1e-09: {digits(ratio(times, str((method, fine)), quadrature))}x" for method in others
+        f"- {method} over quadrature at 1e-09: {digits(ratio(times, str((method, fine)), quadrature).value)}x"
+        for method in others
     ]

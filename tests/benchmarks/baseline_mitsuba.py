@@ -14,7 +14,7 @@ from importlib.util import find_spec
 from math import nan, pi, sin
 from pathlib import Path
 
-from tests.benchmarks.timing import Measure
+from albedo_lab.analysis.clock import Measure
 
 KINDS = {
     "contract": "Mitsuba, Beckmann, contract (another model)",

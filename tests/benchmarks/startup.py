@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 from statistics import median
 
+from albedo_lab.analysis.clock import interleave
 from tests.benchmarks.tables import seconds, table
-from tests.benchmarks.timing import interleave
 
 COMMANDS = {
     "--help": (("--help",), 0.25),

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from statistics import median
 
+from albedo_lab.analysis.clock import WALL, Measure, interleave, ratio, timed
 from albedo_lab.catalogue import find, names
 from tests.benchmarks import baseline_cpp, baseline_numpy
 from tests.benchmarks.baseline_mitsuba import Mitsuba
 from tests.benchmarks.moments import Moments
 from tests.benchmarks.subjects import MU, SUBJECTS, THETA_DEG, Subject, averaging, processors
 from tests.benchmarks.tables import digits, rate, table, verdict
-from tests.benchmarks.timing import WALL, Measure, interleave, ratio, timed
 
 METHODS = {"rqmc": True, "mc": False}
 WEIGHTS = {"contract": True, "reduced": False}
@@ -116,8 +116,8 @@ def one_subject(subject: Subject, mitsuba: Mitsuba, quick: bool) -> str:
             [
                 name,
                 rate(1, median(per_sample[name])),
-                digits(ratio(per_sample, name, generic)),
-                digits(ratio(per_sample, name, reduced)),
+                digits(ratio(per_sample, name, generic).value),
+                digits(ratio(per_sample, name, reduced).value),
                 f"{answer.mean * subject.scale:.5f}" if answer else digits(mitsuba.albedo, 5),
                 f"{answer.standard_error * subject.scale:.1e}" if answer and z else "",
                 z,
@@ -143,5 +143,5 @@ def one_subject(subject: Subject, mitsuba: Mitsuba, quick: bool) -> str:
     ):
         for ours, least in zip((generic, reduced), wanted, strict=True):
             if against:
-                lines.append(f"- {ours} over {label}: {verdict(min(ratio(per_sample, n, ours) for n in against), least)}")
+                lines.append(f"- {ours} over {label}: {verdict(min(ratio(per_sample, n, ours).value for n in against), least)}")
     return "\n".join(lines)

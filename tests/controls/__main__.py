@@ -1,11 +1,12 @@
-"""`python -m tests.controls [FILE]`: the table of the negative controls, by all checks, to a file or to standard output."""
+"""`python -m tests.controls [FILE]`: tries every negative control by all checks and writes the page about them."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
 
-from tests.controls.court import convictions, findings, table
+from albedo_lab.files import write_whole
+from tests.controls.court import convictions, findings, page
 from tests.controls.sick import SICK
 
 
@@ -15,10 +16,7 @@ def main() -> None:
     for sick in SICK:
         rows.append((sick, convictions(findings(sick.model, sick.values))))
         print(sick.name, ", ".join(rows[-1][1]), file=sys.stderr, flush=True)
-    if len(sys.argv) > 1:
-        Path(sys.argv[1]).write_text(table(rows) + "\n")
-    else:
-        print(table(rows))
+    write_whole(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).with_name("README.md"), page(rows))
 
 
 if __name__ == "__main__":

@@ -31,6 +31,25 @@ def chance(finding: Finding | None) -> float:
     return 2.0 if finding is None else finding.p_value or 0.0
 
 
+HEAD = """\
+# Negative controls
+
+Sound models of the catalogue, each with one thing made wrong, before all checks of `albedo-lab check` at the default budget:
+{tried} tried, {missed} missed. `python -m tests.controls` writes this page again; `make test-slow` tries every control, and
+demands that each is convicted by the check that should.
+
+The figure is the check's statistic, the threshold what it must not exceed; where chance has a part, p is the probability that
+a sound model looks as bad.
+
+"""
+
+
+def page(rows: Sequence[tuple[Sick, Mapping[str, Finding]]]) -> str:
+    """The table as a page of its own."""
+    missed = sum(not set(sick.convicted_by) <= set(told) for sick, told in rows)
+    return HEAD.format(tried=len(rows), missed=missed) + table(rows) + "\n"
+
+
 def table(rows: Iterable[tuple[Sick, Mapping[str, Finding]]]) -> str:
     """The negative controls as Markdown: what was injected, which check convicted, with which figure."""
     lines = [

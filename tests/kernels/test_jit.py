@@ -60,6 +60,15 @@ def test_an_edit_in_a_callee_of_another_file_is_seen_and_an_unchanged_model_come
     assert ask(tmp_path) == (pytest.approx(0.75 * 3.141592653589793), 0)
 
 
+def test_an_edit_of_a_constant_that_is_read_through_its_module_is_seen(tmp_path: Path) -> None:
+    through = MODEL.replace("from callee import shape", "import callee").replace("shape(wi)", "callee.SHARE")
+    (tmp_path / "mine.py").write_text(through)
+    for share in (0.25, 0.75):
+        (tmp_path / "callee.py").write_text(f"SHARE = {share}\n")
+        assert ask(tmp_path) == (pytest.approx(share * 3.141592653589793), 0)
+    assert ask(tmp_path) == (pytest.approx(0.75 * 3.141592653589793), 1)
+
+
 DIGITS = """
 from albedo_lab import albedo, mean_albedo
 for options in ({"method": "quadrature", "tolerance": 1e-8}, {"tolerance": 1e-4}):

@@ -10,7 +10,7 @@ import pytest
 
 from albedo_lab.model import Model
 from albedo_lab.models.phong_blend import MODEL, PhongBlend, largest_constant, make
-from albedo_lab.papers.neumann1999 import TABLE_2
+from albedo_lab.papers.neumann1999.tables import TABLE_2
 from albedo_lab.papers.verdict import Printed
 from tests.models import trial
 

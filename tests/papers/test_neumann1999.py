@@ -4,17 +4,33 @@ import csv
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from albedo_lab.models import blinn, modified_ward, schlick_isotropic, stretched_blinn
-from albedo_lab.papers.audit import Means, examine, trace
-from albedo_lab.papers.neumann1999 import PAPER, equation_26
+from albedo_lab.papers.examine import examine, hear
+from albedo_lab.papers.neumann1999 import PAPER, equations
+from albedo_lab.papers.neumann1999.statements import efficiency, grazing, materials
+from albedo_lab.papers.neumann1999.statements.introduction import peak
+from albedo_lab.papers.neumann1999.tables import equation_26
+from albedo_lab.papers.neumann1999.tried import albedo, exchanged, identical
+from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.verdict import Kind
 from tests.oracles.mean import mean_closed_form, wallis
 
 REPORTS = Path(__file__).parents[2] / "reports" / PAPER.name
 TABLES = {table.name: table for table in PAPER.tables}
 QUADRATURE = Means(1e-8, "quadrature")
+
+
+STATEMENTS = {statement.name: statement for statement in PAPER.statements}
+DOUBTED = (Kind.REFUTED, Kind.OFF)
+
+
+def found(name):
+    """The verdict's kind and our words."""
+    ((_, evidence),) = hear([STATEMENTS[name]])
+    return evidence.verdict.kind, evidence.ours
 
 
 def cell(table, model, at=None, **parameters):
@@ -101,11 +117,136 @@ def test_a_tie_and_a_misprint_get_their_verdicts():
 
 
 def test_curves_end_where_equation_26_says():
-    (plot,) = (p for p in PAPER.plots if p.name == "figure_3")
-    data = trace(plot, threads=1)
-    for curve in plot.curves:
-        last = data[data.curve == curve.label].iloc[-1]
-        assert last.albedo == pytest.approx(curve.limit, abs=1e-5)
+    (figure,) = (f for f in PAPER.figures if f.name == "figure_3")
+    data = figure.picture.trace(threads=1)[""]
+    for label, limit in figure.picture.limits.items():
+        last = data[data.curve == label].iloc[-1]
+        assert last.albedo == pytest.approx(limit, abs=1e-5)
+
+
+def test_names_are_unique_and_errata_point_to_them():
+    assert len(STATEMENTS) == len(PAPER.statements) >= 158
+    assert {erratum.statement for erratum in PAPER.errata} <= STATEMENTS.keys() | TABLES.keys()
+    assert len({figure.name for figure in PAPER.figures}) == len(PAPER.figures)
+
+
+CHEAP = (
+    "grazing_cook_torrance",
+    "energy_balance_contracts",
+    "blinn_follows_the_cosine",
+    "table_1_off_specular_ward",
+    "symmetric_function",
+    "mirror_sees_itself",
+    "peak_of_polished_metals",
+    "equation_14",
+    "mirrored_light",
+    "efficiency_grows",
+    "worst_at_zero",
+    "smaller_angle_elsewhere",
+    "largest_difference",
+    "table_4_caption",
+    "schlick_more_than_incoming",
+)
+
+
+@pytest.mark.parametrize("name", CHEAP)
+def test_errata_are_found_again(name):
+    assert name in {erratum.statement for erratum in PAPER.errata}
+    assert found(name)[0] in DOUBTED
+
+
+@pytest.mark.parametrize("name", ["point_light", "brdf_symmetric_about_mirror", "colour_fades_steadily"])
+def test_what_a_fair_reading_leaves_open_is_not_refuted(name):
+    assert found(name)[0] is Kind.UNDECIDED
+
+
+SOUND = (
+    "equation_21_at_normal",
+    "plastic_energy",
+    "equation_4",
+    "equation_9",
+    "equation_10",
+    "equation_11",
+    "equation_13",
+    "equation_19",
+    "equation_20",
+    "equation_22",
+    "equation_23",
+    "equation_24",
+    "equation_25",
+    "equation_31",
+    "equation_34",
+    "equation_36",
+    "rms_of_slope",
+    "better_than_phong",
+    "maximum_of_stretched",
+)
+
+
+@pytest.mark.parametrize("name", SOUND)
+def test_what_holds_is_found_to_hold(name):
+    assert found(name)[0] is Kind.HOLDS
+
+
+def test_the_same_seed_tells_the_same():
+    names = ("better_than_phong", "equation_25", "equation_10")
+    statements = [STATEMENTS[name] for name in names]
+    first, again, other = (list(hear(statements, seed)) for seed in (0, 0, 1))
+    assert first == again
+    assert [e.verdict for _, e in first] == [e.verdict for _, e in other]
+    assert first != other
+
+
+@pytest.mark.parametrize("wrong", [lambda L, V: equations.phong(20.0)(L, V) * L[:, 2], equations.phong(19.0)])
+def test_a_wrong_formula_is_refuted(wrong):
+    right = equations.phong(20.0)
+    assert identical(right, right, "phong", n=20)(QUADRATURE).verdict.kind is Kind.HOLDS
+    assert identical(wrong, right, "phong", n=20)(QUADRATURE).verdict.kind is Kind.REFUTED
+    assert identical(wrong, wrong, "phong", n=20)(QUADRATURE).verdict.kind is Kind.REFUTED
+
+
+def test_exchanging_tells_a_formula_that_is_not_reciprocal():
+    def apart(f):
+        return float(exchanged(f)(QUADRATURE).split()[3])
+
+    assert apart(equations.ward(0.3)) < 1e-12
+    assert apart(lambda L, V: equations.phong(20.0)(L, V) / L[:, 2]) > 0.9
+
+
+@pytest.mark.parametrize(
+    ("model", "f"), [("stretched_phong", equations.stretched(5.0)), ("stretched_blinn", equations.stretched_blinn(5.0))]
+)
+def test_the_product_rule_is_an_albedo(model, f):
+    for angle in (0.0, 50.0, 80.0):
+        assert equations.reflected(f, angle) == pytest.approx(albedo(model, angle, n=5, scale=1.0), rel=1e-5)
+
+
+def test_efficiencies_against_closed_forms():
+    n = 10.0
+    assert efficiency.efficiency(0.0, exponent=n) == pytest.approx((n + 1) * (n + 3) / (n + 2) ** 2, rel=1e-4)
+    # a lobe about the horizon: half of the weights are 0, the others are equal, or go like the height of a Gaussian for Phong
+    for grazing_n in (1e2, 1e4):
+        assert efficiency.efficiency(90.0 - 1e-7, exponent=grazing_n) == pytest.approx(0.5, rel=2e-3)
+        assert efficiency.efficiency(90.0 - 1e-7, model="phong", exponent=grazing_n) == pytest.approx(1 / math.pi, rel=2e-2)
+
+
+def test_the_angle_of_the_half_vector():
+    L = equations.hemisphere(3, 1000)
+    assert np.allclose(materials.half_angle(L, L), 0.0, atol=1e-5)
+    assert np.allclose(materials.half_angle(L, equations.mirrored(L)), np.degrees(np.arccos(L[:, 2])), atol=1e-5)
+
+
+def test_summits_in_closed_form():
+    assert peak("stretched_phong", n=100) == pytest.approx(75.0, abs=0.011)
+    tangent, m = math.tan(math.radians(75.0)), 0.03
+    assert peak("ward", m=m) - 75.0 == pytest.approx(math.degrees(m * m * tangent), rel=0.1)
+    assert peak("cook_torrance", m=m) - 75.0 == pytest.approx(2.0 * math.degrees(m * m * tangent), rel=0.1)
+
+
+def test_every_model_of_the_paper_has_a_grazing_law():
+    treated = {model for statement in PAPER.statements for model in statement.models}
+    have = {model for statement in grazing.STATEMENTS for model in statement.models}
+    assert treated - have == {"lambert", "mirror", "schlick"}
 
 
 def committed(name):

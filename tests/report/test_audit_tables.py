@@ -4,11 +4,12 @@ import math
 
 import pytest
 
+from albedo_lab.digits import with_error
 from albedo_lab.estimate.record import bounded, exact
-from albedo_lab.papers.audit import Cell, Finding, Table
 from albedo_lab.papers.neumann1999 import PAPER
+from albedo_lab.papers.record import Cell, Finding, Table
 from albedo_lab.papers.verdict import Printed, judge
-from albedo_lab.report.audit_tables import as_printed, csv_table, latex_table, markdown_table, place, with_error
+from albedo_lab.report.audit_tables import as_printed, csv_table, latex_table, markdown_table, place
 
 
 def finding(text="0.350", value=0.3516, model="stretched_blinn", **parameters):
@@ -62,7 +63,7 @@ def test_markdown_shows_doubted_cells_once_more():
 
 
 def test_latex_is_escaped_and_ascii():
-    text = latex_table(TABLE, [finding(m=0.1, theta_deg=89.0), finding("7.8e-3", 0.0078, n=math.inf)])
+    text = latex_table("t", TABLE, [finding(m=0.1, theta_deg=89.0), finding("7.8e-3", 0.0078, n=math.inf)])
     assert text.isascii()
     assert r"stretched\_blinn" in text
     assert r"\caption{Constants \& co, 100 \%: C\_n (\S1, a\_b)" in text
@@ -75,4 +76,4 @@ def test_latex_of_every_table_is_ascii():
     for table in PAPER.tables:
         ours = bounded(1.0, 1e-9, 1, "quadrature")
         found = [Finding(c, ours, {"rqmc": ours}, judge(Printed("1.0"), ours)) for c in table.cells]
-        assert latex_table(table, found).isascii()
+        assert latex_table(table.name, table, found).isascii()
