@@ -383,8 +383,9 @@ def test_no_space_left():
 @pytest.mark.parametrize(
     ("arguments", "asked"),
     [
-        ([], ("reports", (), 0, None, None)),
-        (["neumann1999", "-o", "out", "--seed", "7", "--threads", "2"], ("out", ("neumann1999",), 7, 2, None)),
+        (["--threads", "3"], ("reports", (), 0, 3, None, False, 3)),
+        (["neumann1999", "-o", "out", "--seed", "7", "--threads", "2"], ("out", ("neumann1999",), 7, 2, None, False, 2)),
+        (["--timings", "--threads", "1"], ("reports", (), 0, 1, None, True, 1)),
     ],
 )
 def test_report(monkeypatch, arguments, asked):

@@ -76,6 +76,8 @@ class Statement:
         The proposition on trial, as precisely as it can be put; which parameters are tried, where the document names none.
     models
         Names of the catalogue that it is about.
+    topic
+        What several documents speak of, and what has a page of its own therefore, over all documents; empty for most.
     """
 
     name: str
@@ -84,6 +86,10 @@ class Statement:
     asks: str
     trial: Trial
     models: tuple[str, ...] = ()
+    topic: str = ""
+
+
+GRAZING = "grazing laws"
 
 
 class Cause(StrEnum):

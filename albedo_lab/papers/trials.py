@@ -21,6 +21,7 @@ from albedo_lab.analysis.request import grid, model_of
 from albedo_lab.analysis.verdict import Finding, Subject
 from albedo_lab.analysis.verdict import Verdict as Judged
 from albedo_lab.digits import typeset, with_error
+from albedo_lab.estimate.quadrature import quadrature
 from albedo_lab.estimate.record import Question, Tolerance, bounded
 from albedo_lab.estimate.sampling import rqmc
 from albedo_lab.papers.examine import FINEST
@@ -203,14 +204,19 @@ def grazing_words(seen: GrazingLaw) -> str:
 
 
 def _sampled_exponent(subject: Subject, order: str, means: Means) -> str:
-    """The exponent between two cosines, by samples, with half of its 95 % interval."""
-    near, nearer = (
-        rqmc(Question(subject.model, subject.p, mu, 0.0, order), Tolerance(0.0, 1e-4), means.seed, means.threads or 1, 1 << 20)
-        for mu in (NEAR, NEARER)
-    )
+    """The exponent between two cosines by samples, with half of its 95 % interval, and by quadrature.
+
+    It is that of the approach to the limit, not of the limit, which samples cannot reach.
+    """
+    questions = [Question(subject.model, subject.p, mu, 0.0, order) for mu in (NEAR, NEARER)]
+    within = Tolerance(1e-300, 1e-4)
+    near, nearer = (rqmc(question, within, means.seed, means.threads or 1, 1 << 20) for question in questions)
     if not (near.value > 0.0 and nearer.value > 0.0 and math.isfinite(near.value + nearer.value)):
         return f"a({NEARER:g}) = {nearer.value * subject.scale.value:.4g} by samples"
     decades = math.log(NEAR / NEARER)
     s = math.log(near.value / nearer.value) / decades
     error = math.hypot(near.half_width / near.value, nearer.half_width / nearer.value) / decades
-    return f"s = {with_error(bounded(s, max(error, 1e-9), 0, 'rqmc'), 1e-4)} between μ = {NEAR:g} and {NEARER:g} (rqmc)"
+    before, after = (quadrature(question, within).value for question in questions)
+    there = round(math.log(before / after) / decades, 4) + 0.0 if before > 0.0 and after > 0.0 else math.nan
+    told = with_error(bounded(s, max(error, 1e-9), 0, "rqmc"), 1e-4)
+    return f"between μ = {NEAR:g} and {NEARER:g}: s = {told} (rqmc), {there:.4f} (quadrature)"

@@ -47,6 +47,9 @@ from albedo_lab.report.statements import (
     longtable,
     markdown_errata,
     markdown_statements,
+    markdown_topic,
+    page_of,
+    topics,
 )
 from albedo_lab.report.timings import FOLDER, timings_are_there, write_timings
 from albedo_lab.report.workers import Step, Task, worked
@@ -212,8 +215,10 @@ def common_files(audits: Sequence[Audited], drawn: Drawn, models: Sequence[Card]
     long = [f"{a.paper.name}/statements" for a in audits if a.evidence]
     long += ["errata", *(f"models/{name}" for name in CARD_TABLES if models)]
     inputs = "".join(f"\\input{{{name}}}\n" for name in tables) + "".join(f"\\clearpage\\input{{{name}}}\n" for name in long)
+    by_topic = {page_of(topic): markdown_topic(topic, audits) for topic in topics(audits)}
     return encoded(
-        {
+        by_topic
+        | {
             "index.html": page(audits, drawn, models, seed, timed),
             "README.md": front_page(audits, {card.name: f"models/{card.name}.md" for card in models}, timed),
             "errata.md": markdown_errata(audits),

@@ -10,7 +10,7 @@ from albedo_lab.pictures import Data
 from albedo_lab.report.audit_tables import DOUBTER, doubter_rows
 from albedo_lab.report.audited import SOUND, Audited, frames, tally
 from albedo_lab.report.formats import as_markdown
-from albedo_lab.report.statements import HEARD, heard_row, literal
+from albedo_lab.report.statements import HEARD, heard_row, literal, page_of, topics
 
 TITLE = "The documents on trial"
 HOW = """\
@@ -39,6 +39,7 @@ def front_page(audits: Sequence[Audited], models: Mapping[str, str], timed: Mapp
     counts.append(["**all**", *(f"**{number}**" for number in counted(sum((a.tally() for a in audits), Counter())))])
     errata = sum(len(audited.paper.errata) for audited in audits)
     beside = [f"- **[Errata](errata.md)**: {errata} corrections, each with its numbers ([csv](errata.csv), [tex](errata.tex))"]
+    beside += [f"- **[{topic.capitalize()}]({page_of(topic)})**, of all documents side by side" for topic in topics(audits)]
     if models:
         beside.append("- **Model cards**: " + ", ".join(f"[{name}]({page})" for name, page in models.items()))
     if timed:

@@ -85,6 +85,28 @@ def csv_statements(audited: Audited) -> str:
     return as_csv(RECORDED, [record(statement, evidence) for statement, evidence in audited.statements()])
 
 
+def topics(audits: Sequence[Audited]) -> list[str]:
+    """What statements of several documents, or several of one, are about, where they say so."""
+    return sorted({statement.topic for audited in audits for statement in audited.paper.statements if statement.topic})
+
+
+def markdown_topic(topic: str, audits: Sequence[Audited]) -> str:
+    """A page of every statement about a topic, document by document, with its verdict."""
+    rows = [
+        [audited.paper.name, row[0], literal(row[1]), *row[2:]]
+        for audited in audits
+        for statement, evidence in audited.statements()
+        if statement.topic == topic
+        for row in [heard_row(statement, evidence)]
+    ]
+    return f"# {topic.capitalize()}\n\n{as_markdown(('document', *HEARD), rows)}"
+
+
+def page_of(topic: str) -> str:
+    """The name of a topic's page."""
+    return f"{topic.replace(' ', '_')}.md"
+
+
 def record(s: Statement, e: Evidence) -> list[object]:
     """A statement with its evidence as a row for machines, under RECORDED."""
     words = (s.name, s.place, s.printed, s.asks, " ".join(s.models))

@@ -5,7 +5,9 @@ from __future__ import annotations
 import multiprocessing
 import pickle
 import signal
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from multiprocessing.sharedctypes import Synchronized
 from typing import Any, NamedTuple
 
@@ -32,7 +34,9 @@ def worked(tasks: Sequence[Task], processes: int, step: Step) -> list[Any]:
     context = multiprocessing.get_context("spawn")
     made = context.Value("l", 0)
     told = 0
-    with context.Pool(min(processes, len(tasks)), _begin, (made,)) as pool:
+    with _deaf():
+        pool = context.Pool(min(processes, len(tasks)), _begin, (made,))
+    with pool:
         answers = [pool.apply_async(_done, (task,)) for task in tasks]
         while waiting := [answer for answer in answers if not answer.ready()]:
             waiting[0].wait(POLL)
@@ -51,10 +55,25 @@ _made: Synchronized[int]
 
 
 def _begin(made: Synchronized[int]) -> None:
-    """In a new process: where steps are counted; an interrupt is for the process that waits."""
+    """In a new process: where steps are counted."""
     global _made
     _made = made
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """Processes that are started here never hear of an interrupt, which is for the one that waits for them.
+
+    A signal that is ignored stays so in a new process, from its first instruction on. Only the main thread can ignore one.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _done(task: Task) -> Any:

@@ -34,6 +34,7 @@ def refused(x, step):
 
 
 def forever(step):
+    print("at work", flush=True)
     time.sleep(600)
 
 
@@ -75,8 +76,7 @@ def test_an_interrupt_ends_every_process(tmp_path):
         text=True,
         start_new_session=True,
     )
-    assert running.stdout.readline() == "begun\n"
-    time.sleep(2.0)
+    assert [running.stdout.readline() for _ in range(3)] == ["begun\n", "at work\n", "at work\n"]
     os.killpg(running.pid, signal.SIGINT)
     _, said = running.communicate(timeout=60)
     assert said.rstrip().endswith("KeyboardInterrupt")

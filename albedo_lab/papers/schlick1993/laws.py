@@ -16,14 +16,14 @@ from albedo_lab.estimate.quadrature import quadrature
 from albedo_lab.estimate.record import Question, Tolerance
 from albedo_lab.optics.schlick1993 import mean_of_A
 from albedo_lab.papers.recipes import Means, albedo_of
-from albedo_lab.papers.record import Statement, Trial
+from albedo_lab.papers.record import GRAZING, Statement, Trial
 from albedo_lab.papers.schlick1993 import formulas
 from albedo_lab.papers.schlick1993.formulas import DIRECTIONAL, A, albedo, eq15, eq18, pairs, quarter_turn
 from albedo_lab.papers.schlick1993.tried import EQUATIONS, over, row, spread
 from albedo_lab.papers.trials import Found, behaves, checked, subject_of, trial
 
 EVERY = "Every proposed formulation obeys to reciprocity and energy conservation laws"
-GRAZING = 1e-9
+NEARLY_0 = 1e-9
 """A cosine near enough to 0 for eq. 15 and 18."""
 LAYERS: dict[str, dict[str, Any]] = {"single": {"r": 0.2}, "double": {"spectral": "fresnel"}}
 NAMES = {"single": "SINGLE, eq. 10", "double": "DOUBLE, eq. 11"}
@@ -44,19 +44,19 @@ BREAKS = {
 
 def threshold(means: Means) -> Found:
     """The r below which the albedo of eq. 15 at grazing incidence exceeds 1; and the model on both sides of it."""
-    r = brentq(lambda r: albedo(eq15(r), GRAZING).value - 1.0, 0.1, 0.3, xtol=1e-10)
+    r = brentq(lambda r: albedo(eq15(r), NEARLY_0).value - 1.0, 0.1, 0.3, xtol=1e-10)
     again = over((round(r - 0.001, 3), round(r + 0.001, 3)), lambda k: at_grazing(r=k, directional="eq15")(means))
-    few = over((0.01, 0.05, 0.2), lambda k: albedo(eq15(k), GRAZING).value)
+    few = over((0.01, 0.05, 0.2), lambda k: albedo(eq15(k), NEARLY_0).value)
     ours = f"a(90°) = {row('r =', few, 5)}; 1 at r = {r:.6f}"
     return Found(few[0][1] <= 1.0, ours, "plain integration", f"{row('r =', again, 7)} (model at v = 1e-9)")
 
 
 def at_grazing(**parameters: Any) -> Callable[[Means], float]:
-    """The albedo of the model at the cosine GRAZING."""
+    """The albedo of the model at the cosine NEARLY_0."""
 
     def found(means: Means) -> float:
         of = subject_of("schlick", **parameters)
-        return quadrature(Question(of.model, of.p, GRAZING), Tolerance(0.0, 1e-9)).value * of.scale.value
+        return quadrature(Question(of.model, of.p, NEARLY_0), Tolerance(0.0, 1e-9)).value * of.scale.value
 
     return found
 
@@ -64,7 +64,7 @@ def at_grazing(**parameters: Any) -> Callable[[Means], float]:
 def always_more(means: Means) -> Found:
     """Eq. 18 at grazing incidence: 1 more than eq. 15, for every r."""
     chosen = (0.01, 0.05, 0.2, 0.5, 1.0)
-    ours = over(chosen, lambda r: albedo(eq18(r), GRAZING).value)
+    ours = over(chosen, lambda r: albedo(eq18(r), NEARLY_0).value)
     again = over(chosen, lambda r: 1.0 + at_grazing(r=r, directional="eq15")(means))
     return Found(
         max(a for _, a in ours) <= 1.0,
@@ -76,7 +76,7 @@ def always_more(means: Means) -> Found:
 
 def brushed_eq15(means: Means) -> Found:
     """Eq. 15 with r = 0.2, p = 0.2 across the scratch: A as printed, and over its mean, which is what its condition asks."""
-    ours = albedo(eq15(0.2, 0.2), GRAZING, 0.5 * pi).value
+    ours = albedo(eq15(0.2, 0.2), NEARLY_0, 0.5 * pi).value
     corrected = ours / quarter_turn(lambda w: A(0.2, w))
     again = ours / mean_of_A(0.2)
     words = f"a(90°) = {ours:.6f} across the scratch as printed (r = p = 0.2); with A over its mean it would be {corrected:.6f}"
@@ -173,7 +173,7 @@ def conserving(name: str, layers: str) -> Trial:
 
 def grazing(name: str, place: str, printed: str, asks: str, tried: Trial, *models: str) -> Statement:
     """A row of the table of laws at grazing incidence."""
-    return Statement(f"grazing_{name}", place, printed, asks, tried, models)
+    return Statement(f"grazing_{name}", place, printed, asks, tried, models, GRAZING)
 
 
 BOUNDED = "the albedo stays bounded as v → 0, as eq. 3 demands"

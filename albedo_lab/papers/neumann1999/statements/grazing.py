@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from albedo_lab.papers.neumann1999.statements.introduction import HE_TORRANCE
-from albedo_lab.papers.record import Statement
+from albedo_lab.papers.record import GRAZING, Statement
 from albedo_lab.papers.trials import behaves
 
 HIGH = 150
@@ -27,7 +27,7 @@ def of(
 ) -> Statement:
     """What the paper says of a model's albedo at grazing incidence, against the law that quadrature finds."""
     trial = behaves(model, *behaviours, order=order, exponent=exponent, limit=limit, why=why, **parameters)
-    return Statement(f"grazing_{name}", place, printed, asks, trial, (model,))
+    return Statement(f"grazing_{name}", place, printed, asks, trial, (model,), GRAZING)
 
 
 def equation_26(n: float) -> float:
