@@ -56,9 +56,11 @@ def test_an_error_is_raised_here_and_ends_the_rest():
 
 
 SCRIPT = """
+import signal
 from albedo_lab.report.workers import Task, worked
 from tests.report.test_workers import forever
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs are born deaf to it
     print("begun", flush=True)
     worked([Task(forever, ()), Task(forever, ())], 2, lambda: None)
 """

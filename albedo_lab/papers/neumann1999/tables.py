@@ -174,7 +174,7 @@ Mean albedo 2 ∫ a(μ) μ dμ (eq. 33). Phong and stretched Phong carry cₙ = 
 computed maximum of table 2. The mean of the Phong model with n = 4 is 11/16 = 0.6875 exactly: it rounds to the
 print.
 
-#### The infinity row
+**The infinity row.**
 
 Each albedo is an expectation over the model's own lobe, and as n → ∞ that lobe contracts to one direction. Let μ be
 the cosine of the incident direction and z that of the random reflected one, z⁺ = max(z, 0).
