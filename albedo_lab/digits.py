@@ -13,7 +13,14 @@ if TYPE_CHECKING:
 
 TYPESET = {
     re.compile(pattern): sign
-    for pattern, sign in {r"\+-": "±", r"->": "→", r" deg\b": "°", r"\btheta\b": "θ", r"\bphi\b": "φ", r"\bmu\b": "μ"}.items()
+    for pattern, sign in {
+        r"\+-": "±",
+        r"->": "→",
+        r" deg(rees)?\b(?! of freedom)": "°",
+        r"\btheta\b": "θ",
+        r"\bphi\b": "φ",
+        r"\bmu\b": "μ",
+    }.items()
 }
 
 

@@ -64,14 +64,19 @@ def sequence(name: str, value: object) -> list[Any]:
     return values
 
 
+def values_of(model: Model, parameters: Mapping[str, object]) -> dict[str, list[Any]]:
+    """The values of every parameter by its name; a choice that is swept and not given has all its options, and comes first."""
+    swept = {c.name: list(c.options) for c in model.choices if isinstance(c, Choice) and c.swept and c.name not in parameters}
+    return swept | {name: sequence(name, value) for name, value in parameters.items()}
+
+
 def grid(model: Model, parameters: Mapping[str, object]) -> Iterator[tuple[Model, Any, float | None]]:
     """Every combination of the parameters' values, the first varying slowest.
 
     Each with the member of the model's family that its choices select, its named tuple, and the scale if given. A choice that is
     swept and not given takes all its options, slowest of all.
     """
-    swept = {c.name: list(c.options) for c in model.choices if isinstance(c, Choice) and c.swept and c.name not in parameters}
-    several = swept | {name: sequence(name, value) for name, value in parameters.items()}
+    several = values_of(model, parameters)
     for values in itertools.product(*several.values()):
         named = dict(zip(several, values, strict=True))
         scale = SCALE.parse(named.pop("scale")) if "scale" in named else None

@@ -12,13 +12,13 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from albedo_lab.analysis.constant import constant
-from albedo_lab.analysis.request import grid, model_of, sequence
+from albedo_lab.analysis.request import grid, model_of, values_of
 from albedo_lab.analysis.rows import Progress, parameter_columns, table, track
 from albedo_lab.errors import BadInput
 from albedo_lab.kernels.tabulation import tabulation_kernel
 from albedo_lab.measured.cells import SHAPE, point_of
 from albedo_lab.measured.merl_file import CHANNELS, FACTORS, MISSING, Floats, write
-from albedo_lab.model import Choice, Model
+from albedo_lab.model import Model
 from albedo_lab.tables import plain
 
 MIRROR_COSINES = (1.0, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01, 1e-3)
@@ -93,8 +93,7 @@ class Plane(NamedTuple):
 
 def _by_plane(model: Model, parameters: Mapping[str, object]) -> list[dict[str, object]]:
     """The values of each of the three planes; a swept choice that is not given spreads over them. Raises BadInput."""
-    swept = {c.name: c.options for c in model.choices if isinstance(c, Choice) and c.swept}
-    several = {name: sequence(name, value) for name, value in (swept | dict(parameters)).items()}
+    several = values_of(model, parameters)
     for name, values in several.items():
         if len(values) not in (1, len(CHANNELS)):
             raise BadInput(name, parameters.get(name), f"must be one value, or three, for {', '.join(CHANNELS)}")

@@ -48,12 +48,22 @@ def holds(condition: bool) -> Verdict:
     return Verdict(Kind.HOLDS if condition else Kind.REFUTED, None)
 
 
+def ruled(condition: bool, ours: str, method: str, again: str, why: str = "") -> Evidence:
+    """The evidence on a proposition; `why` is told where it is refuted."""
+    return Evidence(holds(condition), ours, method, again, "" if condition else why)
+
+
+def apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+    """The largest relative difference."""
+    return float(np.max(np.abs(a - b) / np.maximum(np.maximum(np.abs(a), np.abs(b)), 1e-300)))
+
+
 def trial(find: Callable[[Means], Found], why: str = "") -> Trial:
     """A proposition that `find` decides; `why` is told where it does not hold."""
 
     def held(means: Means) -> Evidence:
         found = find(means)
-        return Evidence(holds(bool(found.condition)), found.ours, found.method, found.again, "" if found.condition else why)
+        return ruled(bool(found.condition), found.ours, found.method, found.again, why)
 
     return held
 
@@ -110,8 +120,7 @@ def behaves(
             condition = condition and seen.exponent.low <= exponent <= seen.exponent.high
         if limit is not None:
             condition = condition and abs(seen.limit - limit) <= seen.limit_error + FINEST * abs(limit)
-        told = "" if condition else why
-        return Evidence(holds(condition), grazing_words(seen), "quadrature", _sampled_exponent(subject, order, means), told)
+        return ruled(condition, grazing_words(seen), "quadrature", _sampled_exponent(subject, order, means), why)
 
     return held
 
@@ -128,9 +137,8 @@ def checked(
         found = verdict_of(check, model, means.seed, **parameters)
         if found.verdict is Judged.INCONCLUSIVE:
             return Evidence(Verdict(Kind.UNDECIDED, None), found.statement, f"check: {check}", "—", "the check is inconclusive")
-        condition = found.verdict.value == expected
         second = again(means) if again is not None else found.witness or "no witness against it"
-        return Evidence(holds(condition), found.statement, f"check: {check}", second, "" if condition else why)
+        return ruled(found.verdict.value == expected, found.statement, f"check: {check}", second, why)
 
     return held
 
@@ -149,11 +157,9 @@ def same(
         points = np.random.default_rng(means.seed).random((10_000, len(ranges)))
         low, high = np.array(ranges).T
         columns = (low + (high - low) * points).T
-        a, b = left(*columns), right(*columns)
-        apart = float(np.max(np.abs(a - b) / np.maximum(np.abs(a), np.abs(b)).clip(1e-300)))
-        condition = apart <= within
-        ours = f"largest relative difference {apart:.2g} over 10 000 points"
-        return Evidence(holds(condition), ours, "evaluation in double precision", again(means), "" if condition else why)
+        most = apart(left(*columns), right(*columns))
+        ours = f"largest relative difference {most:.2g} over 10 000 points"
+        return ruled(most <= within, ours, "evaluation in double precision", again(means), why)
 
     return held
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
-from albedo_lab.analysis.request import model_of, sequence
+from albedo_lab.analysis.request import model_of, values_of
 from albedo_lab.errors import BadInput
-from albedo_lab.model import Choice, Model
+from albedo_lab.model import Model
 from albedo_lab.pictures.albedos import Albedos
 from albedo_lab.pictures.base import Curve, Picture
 from albedo_lab.pictures.evaluation import refuse_below_horizon
@@ -47,8 +47,7 @@ def asked(kind: str, model: Model | str, parameters: Mapping[str, object], **opt
 def curves(model: Model | str, parameters: Mapping[str, object]) -> tuple[Curve, ...]:
     """A curve for every combination of the parameters' values, labelled by those that differ. Raises BadInput for too many."""
     model = model_of(model)
-    swept = {c.name: c.options for c in model.choices if isinstance(c, Choice) and c.swept and c.name not in parameters}
-    several = {name: sequence(name, values) for name, values in (swept | dict(parameters)).items()}
+    several = values_of(model, parameters)
     cells = [dict(zip(several, values, strict=True)) for values in itertools.product(*several.values())]
     made = tuple(Curve(", ".join([model.name, *_differing(cell, several)]), model, cell) for cell in cells)
     if len(made) > MOST:

@@ -6,16 +6,15 @@ import math
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from albedo_lab.analysis.request import effort, model_of, sequence
+from albedo_lab.analysis.request import effort, model_of, values_of
 from albedo_lab.analysis.verdict import Subject
 from albedo_lab.errors import BadInput
-from albedo_lab.model import Choice, no_mirror
+from albedo_lab.model import no_mirror
 from albedo_lab.optics.colour import encode, srgb_weights
 from albedo_lab.optics.metals import PAPER_WAVELENGTHS
 from albedo_lab.pictures.base import Curve, Data
@@ -95,13 +94,10 @@ class Previews:
 
 def layers_of(curve: Curve) -> tuple[list[Subject], Array]:
     """The materials of a curve, and what each contributes to R, G and B, (layers, 3). Raises BadInput."""
-    model = model_of(curve.model)
-    swept = {c.name: c.options for c in model.choices if isinstance(c, Choice) and c.swept}
-    given: dict[str, Any] = swept | dict(curve.parameters)
-    if given.get("metal", "custom") != "custom":
-        given.setdefault("wavelength", PAPER_WAVELENGTHS)
-    several = {name: sequence(name, value) for name, value in given.items()}
-    several = {name: found for name, found in several.items() if len(found) > 1}
+    given = values_of(model_of(curve.model), curve.parameters)
+    if given.get("metal", ["custom"]) != ["custom"]:
+        given.setdefault("wavelength", list(PAPER_WAVELENGTHS))
+    several = {name: found for name, found in given.items() if len(found) > 1}
     if not several:
         return [subject(curve)], np.ones((1, 3))
     (name, found), *others = several.items()

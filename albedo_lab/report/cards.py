@@ -6,7 +6,6 @@ Every figure on a card comes from `analysis.card`, every picture from `pictures`
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -21,7 +20,7 @@ from albedo_lab.analysis.check import CHECKS, everyone
 from albedo_lab.analysis.grazing import GrazingLaw
 from albedo_lab.analysis.rows import Progress, degrees_of, figures
 from albedo_lab.analysis.verdict import Finding, Verdict
-from albedo_lab.digits import with_error
+from albedo_lab.digits import typeset, with_error
 from albedo_lab.estimate.record import Estimate, bounded
 from albedo_lab.model import Maximum, Reference
 from albedo_lab.pictures.albedos import Albedos
@@ -54,17 +53,6 @@ SAMPLING = (
 MOODS = {Verdict.PASS: "good", Verdict.FAIL: "bad"}
 """Classes of the page; every other verdict leaves the question open."""
 CLAIM_WORDS = {Verdict.PASS: "found", Verdict.FAIL: "refuted", Verdict.INCONCLUSIVE: "left open", Verdict.SKIPPED: "not meant"}
-TYPESET = {
-    re.compile(pattern): sign
-    for pattern, sign in {
-        r"\+-": "±",
-        r"->": "→",
-        r" deg(rees)?\b(?! of freedom)": "°",
-        r"\btheta\b": "θ",
-        r"\bphi\b": "φ",
-        r"\bmu\b": "μ",
-    }.items()
-}
 
 
 @dataclass(frozen=True)
@@ -339,13 +327,6 @@ def unsampled(known: Facts) -> str:
         return ""
     why = told(known.of("quality")) or "the sampler was not tried"
     return f"{why[:1].upper()}{why[1:]}."
-
-
-def typeset(text: str) -> str:
-    """What a check says, in the signs of print instead of a terminal's."""
-    for plain, sign in TYPESET.items():
-        text = plain.sub(sign, text)
-    return text
 
 
 def badge(verdict: Verdict, word: str = "") -> dict[str, str]:

@@ -6,14 +6,12 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from albedo_lab.digits import with_error
 from albedo_lab.estimate.quadrature import quadrature
 from albedo_lab.estimate.record import Estimate, Question, Tolerance, exact
 from albedo_lab.papers.losasso.equations import Equation, hemisphere, reflected
 from albedo_lab.papers.recipes import Means
-from albedo_lab.papers.trials import Found, subject_of
+from albedo_lab.papers.trials import Found, apart, subject_of
 
 PRINTED = "the printed equation on a grid"
 MANY = 10_000
@@ -43,9 +41,8 @@ def lit(equation: Equation, irradiance: float = 1.0) -> str:
 def swapped(equation: Equation, means: Means) -> str:
     """By how much I / (N.L) of a printed equation changes when light and eye change places."""
     L, E = hemisphere(means.seed, MANY), hemisphere(means.seed + 1, MANY)
-    f, g = equation(L, E) / L[:, 2], equation(E, L) / E[:, 2]
-    apart = float(np.max(np.abs(f - g) / np.maximum(np.maximum(np.abs(f), np.abs(g)), 1e-300)))
-    return f"largest relative difference {apart:.2g} over {MANY} pairs (the printed equation)"
+    most = apart(equation(L, E) / L[:, 2], equation(E, L) / E[:, 2])
+    return f"largest relative difference {most:.2g} over {MANY} pairs (the printed equation)"
 
 
 def dated(printed: int, *references: tuple[str, int]) -> Callable[[Means], Found]:

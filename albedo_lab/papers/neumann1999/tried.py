@@ -16,7 +16,7 @@ from albedo_lab.estimate.sampling import monte_carlo, rqmc
 from albedo_lab.papers.neumann1999.equations import Array, Brdf, hemisphere
 from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.record import Trial
-from albedo_lab.papers.trials import Found, subject_of, trial
+from albedo_lab.papers.trials import Found, apart, subject_of, trial
 from albedo_lab.pictures.evaluation import in_plane, values
 
 PRINTED = "the printed equation"
@@ -74,11 +74,6 @@ def in_section(model: str, light_deg: float, viewer_deg: Any, **parameters: Any)
 def at_mirror(model: str, light_deg: float, **parameters: Any) -> float:
     """Radiance towards the mirror direction under a point light, of irradiance cos Theta_L: f cos Theta_L."""
     return float(in_section(model, light_deg, light_deg, **parameters)[0]) * cosine(light_deg)
-
-
-def apart(a: Array, b: Array) -> float:
-    """The largest relative difference."""
-    return float(np.max(np.abs(a - b) / np.maximum(np.maximum(np.abs(a), np.abs(b)), 1e-300)))
 
 
 def exchanged(f: Brdf) -> Callable[[Means], str]:

@@ -13,22 +13,11 @@ from albedo_lab.digits import with_error
 from albedo_lab.estimate.record import Estimate, bounded, exact
 from albedo_lab.optics.fresnel import dielectric
 from albedo_lab.optics.metals import LONGEST, METALS, SHORTEST, index
-from albedo_lab.papers.nuaj_models.formulas import (
-    DIAMOND,
-    GLASS,
-    WATER,
-    Array,
-    excess,
-    fresnel,
-    generalised,
-    integral,
-    ruled,
-    white_sky,
-)
+from albedo_lab.papers.nuaj_models.formulas import DIAMOND, GLASS, WATER, Array, excess, fresnel, generalised, integral, white_sky
 from albedo_lab.papers.nuaj_models.variables import paired
 from albedo_lab.papers.recipes import Means, figure
 from albedo_lab.papers.record import Evidence, Statement
-from albedo_lab.papers.trials import number, subject_of, undecided
+from albedo_lab.papers.trials import number, ruled, subject_of, undecided
 from albedo_lab.pictures.evaluation import in_plane, values
 
 DIFFUSE = "Diffuse Part"

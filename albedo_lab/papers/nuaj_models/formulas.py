@@ -8,18 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from albedo_lab.estimate.record import Estimate, bounded
-from albedo_lab.papers.record import Evidence
-from albedo_lab.papers.trials import holds
 
 Array = NDArray[np.float64]
 WATER, GLASS, DIAMOND = 1.333, 1.5, 2.417
 """Refractive indices in yellow light; the page prints none."""
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(400)
-
-
-def ruled(condition: bool, ours: str, method: str, again: str, why: str = "") -> Evidence:
-    """The evidence on a proposition; `why` is told where it is refuted."""
-    return Evidence(holds(condition), ours, method, again, "" if condition else why)
 
 
 def integral(f: Callable[[Array], Array], low: float, high: float) -> Estimate:

@@ -10,11 +10,11 @@ from albedo_lab.digits import with_error
 from albedo_lab.estimate.record import Estimate
 from albedo_lab.optics.frame import Direction
 from albedo_lab.optics.masking import beckmann_lambda
-from albedo_lab.papers.nuaj_models.formulas import NODES, WEIGHTS, Array, beckmann, directions, integral, ruled
+from albedo_lab.papers.nuaj_models.formulas import NODES, WEIGHTS, Array, beckmann, directions, integral
 from albedo_lab.papers.nuaj_models.variables import paired
 from albedo_lab.papers.recipes import Means, albedo_of, largest_constant_of
 from albedo_lab.papers.record import Evidence, Statement
-from albedo_lab.papers.trials import behaves, subject_of, unclaimed, undecided, verdict_of
+from albedo_lab.papers.trials import behaves, ruled, subject_of, unclaimed, undecided, verdict_of
 from albedo_lab.pictures.evaluation import values
 
 SHADOWING, ACCURACY, SPEED = "Shadowing / Masking", "Accuracy", "Speed"

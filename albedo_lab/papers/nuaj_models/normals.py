@@ -13,10 +13,10 @@ from albedo_lab.estimate.record import Estimate, bounded
 from albedo_lab.optics.frame import Direction
 from albedo_lab.optics.masking import beckmann_lambda
 from albedo_lab.optics.normals import beckmann_slope
-from albedo_lab.papers.nuaj_models.formulas import Array, beckmann, excess, generalised, integral, phong, projected, ruled
+from albedo_lab.papers.nuaj_models.formulas import Array, beckmann, excess, generalised, integral, phong, projected
 from albedo_lab.papers.recipes import Means, albedo_of
 from albedo_lab.papers.record import Evidence, Statement, Trial
-from albedo_lab.papers.trials import checked, subject_of, undecided
+from albedo_lab.papers.trials import checked, ruled, subject_of, undecided
 from albedo_lab.pictures.evaluation import in_plane, values
 
 ANALYTICAL, SPECULARITY = "Analytical models of BRDF", "Specularity"

@@ -12,21 +12,11 @@ from albedo_lab.optics.colour import srgb_weights
 from albedo_lab.optics.fresnel import conductor, dielectric, normal_reflectance
 from albedo_lab.optics.fresnel import schlick as schlick_of_library
 from albedo_lab.optics.metals import LONGEST, METALS, SHORTEST, index
-from albedo_lab.papers.nuaj_models.formulas import (
-    DIAMOND,
-    GLASS,
-    WATER,
-    Array,
-    directions,
-    fresnel,
-    polarised,
-    ruled,
-    schlick,
-)
+from albedo_lab.papers.nuaj_models.formulas import DIAMOND, GLASS, WATER, Array, directions, fresnel, polarised, schlick
 from albedo_lab.papers.nuaj_models.variables import PAIRS, angles_of
 from albedo_lab.papers.recipes import Means, albedo_of
 from albedo_lab.papers.record import Evidence, Statement
-from albedo_lab.papers.trials import extremum, grazing_words, subject_of, unclaimed, undecided
+from albedo_lab.papers.trials import extremum, grazing_words, ruled, subject_of, unclaimed, undecided
 from albedo_lab.papers.verdict import Kind, Verdict
 from albedo_lab.pictures.evaluation import values
 

@@ -13,10 +13,10 @@ from albedo_lab.measured.cells import SHAPE
 from albedo_lab.measured.merl_file import HEADER, PLANE, SIZE, centre_cosines, share_below
 from albedo_lab.measured.rusinkiewicz import half_difference, light_and_viewer
 from albedo_lab.optics.frame import Direction
-from albedo_lab.papers.nuaj_models.formulas import Array, directions, ruled
+from albedo_lab.papers.nuaj_models.formulas import Array, directions
 from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.record import Evidence, Statement
-from albedo_lab.papers.trials import number, subject_of, unclaimed, undecided
+from albedo_lab.papers.trials import number, ruled, subject_of, unclaimed, undecided
 from albedo_lab.pictures.evaluation import values
 
 VARIABLES, MERL = "Change of Variable", "BRDF from Actual Materials"

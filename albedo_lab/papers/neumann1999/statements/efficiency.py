@@ -14,10 +14,10 @@ from albedo_lab.papers.neumann1999.equations import (
 )
 from albedo_lab.papers.neumann1999.statements.sampling import drawn, n, viewer
 from albedo_lab.papers.neumann1999.statements.stretched import c_n
-from albedo_lab.papers.neumann1999.tried import CODE, MANY, PRINTED, SAME, apart, cosine, in_section, sampled, variance
+from albedo_lab.papers.neumann1999.tried import CODE, MANY, PRINTED, SAME, cosine, in_section, sampled, variance
 from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.record import Statement, Trial
-from albedo_lab.papers.trials import CLOSED, Found, measured, trial, undecided
+from albedo_lab.papers.trials import CLOSED, Found, apart, measured, trial, undecided
 from albedo_lab.pictures.evaluation import in_plane
 
 VIEWERS = (0.0, 30.0, 60.0, 80.0, 89.0, 89.99)

@@ -19,10 +19,10 @@ from albedo_lab.papers.neumann1999.equations import (
 )
 from albedo_lab.papers.neumann1999.statements.materials import pairs
 from albedo_lab.papers.neumann1999.statements.stretched import c_n
-from albedo_lab.papers.neumann1999.tried import CODE, MANY, PRINTED, SAME, apart, cosine, exchanged, identical, in_section
+from albedo_lab.papers.neumann1999.tried import CODE, MANY, PRINTED, SAME, cosine, exchanged, identical, in_section
 from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.record import Statement, Trial
-from albedo_lab.papers.trials import Found, checked, trial, undecided
+from albedo_lab.papers.trials import Found, apart, checked, trial, undecided
 from albedo_lab.pictures.evaluation import in_plane
 
 

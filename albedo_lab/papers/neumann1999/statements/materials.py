@@ -23,10 +23,10 @@ from albedo_lab.papers.neumann1999.equations import (
 )
 from albedo_lab.papers.neumann1999.statements.introduction import towards_grazing
 from albedo_lab.papers.neumann1999.statements.stretched import c_n
-from albedo_lab.papers.neumann1999.tried import CODE, MANY, PRINTED, SAME, albedo, apart, cosine, exchanged, in_section, sampled
+from albedo_lab.papers.neumann1999.tried import CODE, MANY, PRINTED, SAME, albedo, cosine, exchanged, in_section, sampled
 from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.record import Statement
-from albedo_lab.papers.trials import CLOSED, Found, checked, trial, undecided
+from albedo_lab.papers.trials import CLOSED, Found, apart, checked, trial, undecided
 from albedo_lab.pictures.evaluation import in_plane
 
 ALUMINIUM: dict[str, Any] = {"metal": "aluminium", "wavelength": 550.0}

@@ -27,7 +27,6 @@ from albedo_lab.papers.neumann1999.tried import (
     PRINTED,
     SAME,
     albedo,
-    apart,
     at_mirror,
     cosine,
     exchanged,
@@ -36,7 +35,7 @@ from albedo_lab.papers.neumann1999.tried import (
 )
 from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.record import Statement, Trial
-from albedo_lab.papers.trials import CLOSED, Found, checked, measured, trial, undecided
+from albedo_lab.papers.trials import CLOSED, Found, apart, checked, measured, trial, undecided
 from albedo_lab.pictures.evaluation import in_plane
 
 

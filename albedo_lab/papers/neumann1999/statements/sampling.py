@@ -20,10 +20,10 @@ from albedo_lab.papers.neumann1999.equations import (
     stretched,
 )
 from albedo_lab.papers.neumann1999.statements.stretched import c_n
-from albedo_lab.papers.neumann1999.tried import CODE, MANY, PRINTED, SAME, albedo, apart, cosine, in_section
+from albedo_lab.papers.neumann1999.tried import CODE, MANY, PRINTED, SAME, albedo, cosine, in_section
 from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.record import Statement
-from albedo_lab.papers.trials import Found, trial
+from albedo_lab.papers.trials import Found, apart, trial
 from albedo_lab.pictures.evaluation import in_plane
 
 n = 100.0

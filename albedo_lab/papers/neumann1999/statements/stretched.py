@@ -25,7 +25,6 @@ from albedo_lab.papers.neumann1999.tried import (
     PRINTED,
     SAME,
     albedo,
-    apart,
     at_mirror,
     cosine,
     exchanged,
@@ -35,7 +34,7 @@ from albedo_lab.papers.neumann1999.tried import (
 )
 from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.record import Statement, Trial
-from albedo_lab.papers.trials import CLOSED, Found, behaves, checked, trial, undecided
+from albedo_lab.papers.trials import CLOSED, Found, apart, behaves, checked, trial, undecided
 
 
 def c_n(n: float) -> float:

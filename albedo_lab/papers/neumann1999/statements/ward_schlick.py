@@ -23,7 +23,6 @@ from albedo_lab.papers.neumann1999.tried import (
     PRINTED,
     SAME,
     albedo,
-    apart,
     cosine,
     exchanged,
     identical,
@@ -32,7 +31,7 @@ from albedo_lab.papers.neumann1999.tried import (
 )
 from albedo_lab.papers.recipes import Means
 from albedo_lab.papers.record import Statement
-from albedo_lab.papers.trials import Found, behaves, checked, subject_of, trial, undecided
+from albedo_lab.papers.trials import Found, apart, behaves, checked, subject_of, trial, undecided
 from albedo_lab.pictures.evaluation import in_plane, values
 
 
