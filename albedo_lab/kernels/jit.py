@@ -20,6 +20,7 @@ import sys
 import textwrap
 import types
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +36,8 @@ CALLEE: dict[str, Any] = INLINE | {"no_cpython_wrapper": True, "no_cfunc_wrapper
 """What is only called by compiled code needs no entry from Python; making one is a tenth of the compilation."""
 ENTRY: dict[str, Any] = {"fastmath": FLAGS, "error_model": "numpy", "nogil": True}
 INTRINSIC = type(intrinsic(lambda typingctx: None))
+TWINS: dict[str, Dispatcher] = {}
+"""Every compiled twin of this process by its fingerprint: a formula is compiled once for all kernels of its model."""
 
 
 class Placeholder:
@@ -72,7 +75,7 @@ def _load(template: Callable[..., Any], name: str, bindings: dict[str, Any]) -> 
     path, cached = _write_stub(f"kernel_{name}.py", source)
     module = types.ModuleType(f"albedo_lab_kernel_{name}")
     module.__file__ = str(path)
-    module.__dict__.update(_bound_globals(template, bindings, {}))
+    module.__dict__.update(_bound_globals(template, bindings))
     linecache.checkcache(str(path))
     exec(compile(source, str(path), "exec"), module.__dict__)
     module.__dict__[name] = numba.njit(**ENTRY, cache=cached)(module.__dict__[name])
@@ -92,7 +95,7 @@ def _write_stub(filename: str, source: str) -> tuple[Path, bool]:
         return path, False
 
 
-def _bound_globals(function: Callable[..., Any], bindings: dict[str, Any], memo: dict[int, Any]) -> dict[str, Any]:
+def _bound_globals(function: Callable[..., Any], bindings: dict[str, Any]) -> dict[str, Any]:
     """The function's globals with every plain function replaced by its compiled twin, placeholders by what they stand for."""
     namespace = dict(function.__globals__)
     for name in _global_names(function.__code__):
@@ -100,29 +103,31 @@ def _bound_globals(function: Callable[..., Any], bindings: dict[str, Any], memo:
         if isinstance(value, Placeholder):
             value = bindings[value.name]
         if isinstance(value, types.FunctionType):
-            value = _twin(value, bindings, memo)
+            value = _twin(value, bindings)
         namespace[name] = value
     return {name: value for name, value in namespace.items() if value is not None and not name.startswith("__")}
 
 
-def _twin(function: Any, bindings: dict[str, Any], memo: dict[int, Any]) -> Any:
+def _twin(function: Any, bindings: dict[str, Any]) -> Any:
     """The compiled twin of a plain function; of an elementary one, its vector version."""
     if function.__module__ == "albedo_lab.optics.maths":
         return getattr(vmath, function.__name__)
-    if id(function) not in memo:
-        namespace = _bound_globals(function, bindings, memo)
+    fingerprint = _fingerprint(function, bindings)
+    if fingerprint not in TWINS:
+        namespace = _bound_globals(function, bindings)
         held = (cell.cell_contents for cell in function.__closure__ or ())
-        closure = tuple(types.CellType(_twin(v, bindings, memo) if isinstance(v, types.FunctionType) else v) for v in held)
+        closure = tuple(types.CellType(_twin(v, bindings) if isinstance(v, types.FunctionType) else v) for v in held)
         twin = types.FunctionType(function.__code__, namespace, function.__name__, function.__defaults__, closure)
         twin.__module__ = function.__module__
-        memo[id(function)] = numba.njit(**CALLEE)(twin)
-    return memo[id(function)]
+        TWINS[fingerprint] = numba.njit(**CALLEE)(twin)
+    return TWINS[fingerprint]
 
 
-def _fingerprint(template: Callable[..., Any], bindings: dict[str, Any]) -> str:
+def _fingerprint(function: Callable[..., Any], bindings: dict[str, Any]) -> str:
+    """Of everything that can change what the function computes."""
     digest = hashlib.sha256()
     digest.update(f"{numba.__version__} {sys.version_info[:3]} {sorted(FLAGS)}".encode())
-    _feed(template, bindings, digest, set())
+    _feed(function, bindings, digest, set())
     return digest.hexdigest()[:20]
 
 
@@ -182,16 +187,21 @@ def _feed_code(code: types.CodeType, digest: Any) -> None:
             digest.update(_stable(constant).encode())
 
 
-def _global_names(code: types.CodeType) -> Iterator[str]:
+@lru_cache(maxsize=4096)
+def _global_names(code: types.CodeType) -> tuple[str, ...]:
     """The globals that a function reads; `co_names` would add its attributes, which may bear the name of some other function."""
-    yield from (instruction.argval for instruction in dis.get_instructions(code) if instruction.opname == "LOAD_GLOBAL")
-    for constant in code.co_consts:
-        if isinstance(constant, types.CodeType):
-            yield from _global_names(constant)
+    own = (instruction.argval for instruction in dis.get_instructions(code) if instruction.opname == "LOAD_GLOBAL")
+    inner = (name for constant in code.co_consts if isinstance(constant, types.CodeType) for name in _global_names(constant))
+    return (*own, *inner)
 
 
-def _attribute_paths(code: types.CodeType) -> Iterator[tuple[str, ...]]:
+@lru_cache(maxsize=4096)
+def _attribute_paths(code: types.CodeType) -> tuple[tuple[str, ...], ...]:
     """Every chain of names that a function follows from a global: settings.SIZE is ("settings", "SIZE")."""
+    return tuple(_followed(code))
+
+
+def _followed(code: types.CodeType) -> Iterator[tuple[str, ...]]:
     path: tuple[str, ...] = ()
     for instruction in dis.get_instructions(code):
         if instruction.opname == "LOAD_GLOBAL":
