@@ -201,6 +201,9 @@ class Model:
     parts(p) -> ((model, p), ...)
         Optional: the terms whose sum `evaluate` is, where no single set of coordinates makes all of them smooth. Quadrature
         integrates each in its own; of a part only parameters_type, evaluate and smooth_in count.
+    mirror_limit
+        (parameter, reflectance(p, mu)): as that parameter tends to 0 with mu fixed, the shape's lobe tends to an ideal mirror of
+        this reflectance.
     positive
         Whether f is promised to be finite and not negative; measured data promise nothing.
     choices, make, chosen
@@ -226,6 +229,7 @@ class Model:
     isotropic: Callable[[Any], bool] = lambda p: True
     reciprocal: bool = True
     positive: bool = True
+    mirror_limit: tuple[str, Callable[[Any, float], float]] | None = None
     claims: tuple[Claim, ...] = ()
     also: tuple[Reference, ...] = ()
     choices: tuple[Choice | Count | File, ...] = ()

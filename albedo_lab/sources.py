@@ -70,3 +70,26 @@ def smith1967(equation: str, *deviations: str) -> Reference:
 def schlick1994(equation: str, *deviations: str) -> Reference:
     """Computer Graphics Forum 13(3), 233-246."""
     return Reference("Schlick", "An Inexpensive BRDF Model for Physically-based Rendering", 1994, equation, deviations)
+
+
+def walter2007(equation: str, *deviations: str) -> Reference:
+    """Eurographics Symposium on Rendering 2007, 195-206."""
+    return Reference(
+        "Walter, Marschner, Li, Torrance", "Microfacet Models for Refraction through Rough Surfaces", 2007, equation, deviations
+    )
+
+
+def heitz2014(equation: str, *deviations: str) -> Reference:
+    """Journal of Computer Graphics Techniques 3(2), 48-107."""
+    title = "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs"
+    return Reference("Heitz", title, 2014, equation, deviations)
+
+
+def heitz2018(equation: str, *deviations: str) -> Reference:
+    """Journal of Computer Graphics Techniques 7(4), 1-13."""
+    return Reference("Heitz", "Sampling the GGX Distribution of Visible Normals", 2018, equation, deviations)
+
+
+def dupuy2023(equation: str, *deviations: str) -> Reference:
+    """Computer Graphics Forum 42(8) (High-Performance Graphics 2023)."""
+    return Reference("Dupuy, Benyoub", "Sampling Visible GGX Normals with Spherical Caps", 2023, equation, deviations)

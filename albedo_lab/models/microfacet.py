@@ -35,7 +35,7 @@ from albedo_lab.optics.normals import (
     gtr_slope,
     tails,
 )
-from albedo_lab.optics.profiles import GAUSS, POWER, TANGENT, Profile
+from albedo_lab.optics.profiles import GAUSS, POWER, TAIL, TANGENT, Profile
 from albedo_lab.sources import nuaj_models, schlick1994, smith1967
 
 
@@ -124,7 +124,7 @@ DISTRIBUTIONS = {
         ),
         "alpha^2 / (pi (alpha^2 cos^2 delta + sin^2 delta)^2)",
         (ROUGHNESS,),
-        TANGENT,
+        TAIL,
         lambda p: p.alpha,
     ),
     "gtr": Distribution(
@@ -136,7 +136,7 @@ DISTRIBUTIONS = {
         ),
         "(gamma-1) (1 - alpha^2) / (pi (alpha^(2 - 2 gamma) - 1)) / (alpha^2 cos^2 delta + sin^2 delta)^gamma",
         (ROUGHNESS, Parameter("gamma", "exponent of the tail: 1 trowbridge_reitz, 2 ggx", default=1.5, low=0.0, high=10.0)),
-        TANGENT,
+        TAIL,
         lambda p: gtr_median(p.L, p.g, p.E),
     ),
 }
@@ -234,6 +234,18 @@ def completion(D: str, F: str, as_printed: str) -> Callable[[Mapping[str, float]
     return complete
 
 
+MIRROR_LIMIT = {"beckmann": "m", "ggx": "alpha", "trowbridge_reitz": "alpha"}
+"""What narrows a distribution to the normal of the surface: for gtr it depends on gamma, and blinn_phong narrows as n grows."""
+
+
+def mirror_limit(D: str, G: str, F: str, diffuse: str, as_printed: str) -> tuple[str, Callable[[Any, float], float]] | None:
+    """The width of D and the reflectance of the mirror, where the member tends to one at every angle."""
+    misprinted = D in PRINTED and as_printed == "yes"
+    if D not in MIRROR_LIMIT or G == "none" or diffuse != "none" or misprinted:
+        return None
+    return MIRROR_LIMIT[D], FRESNEL[F][0]
+
+
 SCHLICK_FITS = "eq. 7 of schlick1993, at grazing angles 1 / sqrt(8) of Smith's masking of the facets that face the direction"
 
 
@@ -316,6 +328,7 @@ def make(*, D: str, G: str, F: str, diffuse: str, as_printed: str) -> Model:
         complete=completion(D, F, as_printed),
         smooth_in=about_half,
         parts=parts,
+        mirror_limit=mirror_limit(D, G, F, diffuse, as_printed),
         source=source,
         also=tuple(also),
         claims=claims,

@@ -37,6 +37,14 @@ def cot(w: Direction) -> float:
     return w.z / max(sqrt(w.x * w.x + w.y * w.y), 1e-100)
 
 
+def stretched(alpha_x: float, alpha_y: float, w: Direction) -> Direction:
+    """w as it is seen after a surface of widths alpha_x and alpha_y is stretched to width 1, not normalised (Heitz 2014).
+
+    Slopes of facets divide by their widths, so Lambda of the surface at w is that of width 1 at the stretched direction.
+    """
+    return Direction(alpha_x * w.x, alpha_y * w.y, w.z)
+
+
 def beckmann_lambda(m: float, w: Direction) -> float:
     """Smith 1967 with the slope's variance m^2 / 2 in every direction."""
     a = cot(w) / m

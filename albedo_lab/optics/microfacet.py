@@ -16,7 +16,7 @@ from math import atan2, erfc, pi, sqrt
 from typing import Any
 
 from albedo_lab.optics.frame import Direction, bisector, dot, length, reflect
-from albedo_lab.optics.masking import cot, schlick_factor, v_cavity_factor, v_cavity_seen
+from albedo_lab.optics.masking import cot, schlick_factor, stretched, v_cavity_factor, v_cavity_seen
 from albedo_lab.optics.maths import exp, log, pow, sincos2pi
 from albedo_lab.optics.profiles import normal_from_slopes
 
@@ -51,6 +51,32 @@ def ggx_visible(alpha: float, wo: Direction, u1: float, u2: float) -> Direction:
     radius = sqrt((1.0 - u1) * (height * (1.0 + z) + x * x + y * y))
     s, c = sincos2pi(u2)
     x, y = alpha * (x + radius * c), alpha * (y + radius * s)
+    unit = 1.0 / sqrt(x * x + y * y + height * height)
+    return Direction(x * unit, y * unit, height * unit)
+
+
+def ggx_visible_by_disk(alpha: float, wo: Direction, u1: float, u2: float) -> Direction:
+    """The same normals from the disk into which the half sphere of those that face the stretched direction projects.
+
+    Heitz, Sampling the GGX Distribution of Visible Normals, 2018. Half of the disk is what lies above the horizon; across it
+    the other half shrinks by the stretched direction's cosine. u1 is the square of the radius.
+    """
+    x, y = alpha * wo.x, alpha * wo.y
+    xy = x * x + y * y
+    unit = 1.0 / sqrt(xy + wo.z * wo.z)
+    z, sine = wo.z * unit, sqrt(xy) * unit
+    c, s = forward(wo)
+    sp, cp = sincos2pi(u2)
+    radius = sqrt(u1)
+    across, up = radius * cp, radius * sp
+    seen = 1.0 - across * across
+    # 1 - z without cancellation; then what is left along the direction, with up^2 <= seen
+    share = 0.5 * sine * sine / (1.0 + z)
+    up = share * sqrt(seen) + (1.0 - share) * up
+    along = sqrt(max(seen - up * up, 0.0))
+    # the plane of incidence: wo itself is (sine, z) in it, what stands across it upwards (-z, sine)
+    front, height = along * sine - up * z, max(along * z + up * sine, 0.0)
+    x, y = alpha * (c * front - s * across), alpha * (s * front + c * across)
     unit = 1.0 / sqrt(x * x + y * y + height * height)
     return Direction(x * unit, y * unit, height * unit)
 
@@ -91,6 +117,18 @@ def beckmann_visible(m: float, wo: Direction, u1: float, u2: float) -> Direction
     along = visible_gaussian(min(cot(wo) / m, 1e30), u1)
     across = visible_gaussian(1e30, u2)
     return normal_about(wo, m * along, m * across)
+
+
+def elliptic_visible(
+    visible: Callable[..., Direction], alpha_x: float, alpha_y: float, wo: Direction, u1: float, u2: float
+) -> Direction:
+    """Visible normals of a surface of both widths: those of width 1 seen from the stretched direction, stretched back.
+
+    `visible` takes a width and a direction, which need not be normalised (Heitz 2014).
+    """
+    h = stretched(alpha_x, alpha_y, visible(1.0, stretched(alpha_x, alpha_y, wo), u1, u2))
+    unit = 1.0 / length(h)
+    return Direction(h.x * unit, h.y * unit, h.z * unit)
 
 
 # Visible normals, V-cavities
@@ -214,6 +252,18 @@ def smith_sampling(normals: Normals, visible: Callable[..., Direction]) -> tuple
         return D(p, bisector(wi, wo)) / (4.0 * wo.z * (1.0 + hidden(p, wo)))
 
     return sample, pdf
+
+
+def smith_weight(normals: Normals, G: Callable[..., float], F: Callable[..., float], sample: Sample) -> Callable[..., float]:
+    """f cos / pdf of these samples, F G / G1(wo): D, both cosines and 4 cancelled."""
+    hidden = normals.smith
+
+    def weight(p: Any, wo: Direction, u1: float, u2: float) -> float:
+        wi = sample(p, wo, u1, u2)
+        v = bisector(wi, wo)
+        return F(p, 0.5 * length(v)) * G(p, v, wi, wo) * (1.0 + hidden(p, wo)) if wi.z > 0.0 else 0.0
+
+    return weight
 
 
 def v_cavity_sampling(normals: Normals) -> tuple[Sample, Pdf]:

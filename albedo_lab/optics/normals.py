@@ -59,11 +59,26 @@ def beckmann(m: float, v: Direction) -> float:
     return exp(-xx) * k * k / (pi * m * m)
 
 
+def beckmann_elliptic(m_x: float, m_y: float, v: Direction) -> float:
+    """exp(-(x / m_x)^2 - (y / m_y)^2) / (pi m_x m_y cos^4), x and y the slopes of the normal (Heitz 2014)."""
+    x, y = v.x / v.z, v.y / v.z
+    k = 1.0 + x * x + y * y
+    x, y = x / m_x, y / m_y
+    return exp(-x * x - y * y) * k * k / (pi * m_x * m_y)
+
+
 def ggx(alpha: float, v: Direction) -> float:
     """alpha^2 / (pi (alpha^2 cos^2 + sin^2)^2) (nuaj_models with gamma = 2)."""
     xy, zz = v.x * v.x + v.y * v.y, v.z * v.z
     k = alpha * (xy + zz) / (xy + alpha * alpha * zz)
     return k * k / pi
+
+
+def ggx_elliptic(alpha_x: float, alpha_y: float, v: Direction) -> float:
+    """1 / (pi alpha_x alpha_y ((h.x / alpha_x)^2 + (h.y / alpha_y)^2 + h.z^2)^2), h = v/|v| (Heitz 2014)."""
+    x, y, zz = v.x / alpha_x, v.y / alpha_y, v.z * v.z
+    k = (v.x * v.x + v.y * v.y + zz) / (x * x + y * y + zz)
+    return k * k / (pi * alpha_x * alpha_y)
 
 
 def log_inverse_q(alpha: float, v: Direction) -> float:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan, pi, sqrt
+from math import asinh, atan, pi, sqrt
 
 from albedo_lab.optics.frame import Direction
 from albedo_lab.optics.maths import exp, expm1, log1p, sincos2pi
@@ -65,7 +65,7 @@ def gauss_coordinate(rho: float, n: float) -> float:
 
 
 def tangent_slope(y: float, n: float) -> tuple[float, float]:
-    """rho = tan y: for survivals 1/(1 + rho^2), and for the plain polar angle."""
+    """rho = tan y: for wide survivals 1/(1 + rho^2), and for the plain polar angle."""
     s, c = sincos2pi(y / (2.0 * pi))
     rho = s / c
     return rho, rho * (1.0 + rho * rho)
@@ -76,6 +76,24 @@ def tangent_coordinate(rho: float, n: float) -> float:
     return atan(rho)
 
 
+def tail_slope(y: float, n: float) -> tuple[float, float]:
+    """rho = sinh y: a survival 1/(1 + rho^2) falls like exp(-2 y), each decade of slopes as long as any other.
+
+    Half of such slopes exceed the width, and the tail goes on to slopes of mu and of 1, where the horizon and the masking of the
+    light leave their marks. The arctangent folds these into its last bit: with it the bounds of quadrature were up to three times
+    too small, in 23 of 1056 albedos of ggx from alpha = 1e-5 to 1.
+    """
+    e = expm1(y)
+    s, c = 0.5 * (e + e / (1.0 + e)), 0.5 * (1.0 + e + 1.0 / (1.0 + e))
+    return s, s * c
+
+
+def tail_coordinate(rho: float, n: float) -> float:
+    """Inverse of tail_slope."""
+    return asinh(rho)
+
+
 POWER = Profile(power_slope, power_coordinate, 7.0)
 GAUSS = Profile(gauss_slope, gauss_coordinate, 7.0)
 TANGENT = Profile(tangent_slope, tangent_coordinate, 0.5 * pi)
+TAIL = Profile(tail_slope, tail_coordinate, 26.0)

@@ -266,6 +266,18 @@ SPECIMENS: dict[str, tuple[dict[str, Any], ...]] = {
         {"D": "gtr", "alpha": 0.3, "gamma": 1.5, "G": "smith", "diffuse": "lambert", "a_d": 0.5},
     ),
     "mirror": ({"F": 1.0}, {"F": 0.0}),
+    "ggx": (
+        {"alpha": 1e-5},
+        {"alpha": 1.0, "G": "smith", "F": "dielectric"},
+        {"alpha_x": 0.3, "alpha_y": 0.6},
+        {"alpha": 0.3, "sampling": "heitz2018", "F": "schlick"},
+    ),
+    "beckmann": (
+        {"alpha": 1e-5},
+        {"alpha": 1.0, "G": "smith", "F": "dielectric"},
+        {"alpha_x": 0.3, "alpha_y": 0.6},
+        {"alpha": 0.1, "F": "conductor"},
+    ),
 }
 """Of every model the ends of its domain and what lies between, and of a family members that differ; `merl` needs a file."""
 

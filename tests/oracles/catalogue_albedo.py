@@ -58,6 +58,12 @@ def parts_of(model: str, p: Parameters) -> list[Part]:
         return [Part("half", microfacet.blinn_trowbridge_reitz, cavities=True)]
     if model == "microfacet":
         return [Part("half", microfacet.microfacet, cavities=p["G"] == "v_cavity")]
+    if model in ("ggx", "beckmann"):
+        f = {"ggx": microfacet.ggx, "beckmann": microfacet.beckmann}[model]
+        isotropic = p["alpha_x"] == p["alpha_y"]
+        # graded down to a hundredth of the narrowest lobe
+        depth = math.ceil(math.log(100.0 / min(p["alpha_x"], p["alpha_y"]), 4.0))
+        return [Part("half", f, isotropic=isotropic, depth=max(9, depth))]
     if model == "ward":
         return [Part("half", rough.ward, isotropic=p["m_x"] == p["m_y"])]
     if model == "oren_nayar":
@@ -188,6 +194,7 @@ def integrate_part(
         pair = Pair(light, view, tan2, t, u, azimuth, *rest[:2])
         if rest:
             pair.one_minus_view = sides(order, rest[2], 1.0 - mu)[1]
+        pair.view_azimuth = angle if order == "wi" else None
         total += float(np.sum(part.f(pair, p) * weight))
     return total
 

@@ -219,9 +219,42 @@ def microfacet_cells() -> list[Cell]:
     return out
 
 
+def ggx_cells() -> list[Cell]:
+    """Both ends of the domain, both maskings, round and elliptic; then Fresnel factors."""
+    out = []
+    for g in ("smith", "smith_correlated"):
+        choice = {"G": g, "F": "one"}
+        for a in (1e-5, 0.05, 0.5, 1.0):
+            out += cells("ggx", {**choice, "alpha_x": a, "alpha_y": a}, GRAZING if a == 1e-5 else MUS)
+        out += cells("ggx", {**choice, "alpha_x": 0.1, "alpha_y": 0.4}, anisotropic=True)
+    out += cells("ggx", {**choice, "alpha_x": 0.3, "alpha_y": 1e-5}, GRAZING, anisotropic=True)
+    for f, optics in (("schlick", {"F0": 0.04}), ("dielectric", {"eta": 1.33}), ("conductor", {"eta": 0.2, "k": 3.4})):
+        out += cells("ggx", {"G": "smith", "F": f, "alpha_x": 0.3, "alpha_y": 0.3, **optics})
+        out += cells("ggx", {"G": "smith_correlated", "F": f, "alpha_x": 0.02, "alpha_y": 0.1, **optics}, anisotropic=True)
+    return out
+
+
+def beckmann_cells() -> list[Cell]:
+    """Few, as a sample takes a microsecond; tests/models/test_beckmann.py asks the oracle for others."""
+    one = {"G": "smith_correlated", "F": "one"}
+    out = cells("beckmann", {"G": "smith", "F": "one", "alpha_x": 0.5, "alpha_y": 0.5}, (COS60, 1e-4))
+    out += cells("beckmann", {**one, "alpha_x": 1e-5, "alpha_y": 1e-5}, (COS60, 1e-6))
+    return out + cells("beckmann", {**one, "alpha_x": 0.1, "alpha_y": 0.4}, (COS30, COS85), anisotropic=True)
+
+
 def all_cells() -> list[Cell]:
     """The whole catalogue."""
-    makers = (schlick_cells, cook_torrance_cells, he_torrance_cells, rough_cells, simple_cells, lobe_cells, microfacet_cells)
+    makers = (
+        schlick_cells,
+        cook_torrance_cells,
+        he_torrance_cells,
+        rough_cells,
+        simple_cells,
+        lobe_cells,
+        microfacet_cells,
+        ggx_cells,
+        beckmann_cells,
+    )
     return [cell for maker in makers for cell in maker()]
 
 

@@ -6,7 +6,7 @@ returns f_r without the cosine.  Nothing here is shared with albedo_lab.
 pair        the angles: v' = n.wi, v = n.wo, t = n.h, u = wo.h, the azimuth of the half vector, the mirror cosine.
 fresnel     one, Schlick, exact for a complex index.
 facets      D and G of microfacet models; exact Smith masking, by closed form or by quadrature of its definition.
-microfacet  `microfacet`, `cook_torrance`, `blinn_trowbridge_reitz`.
+microfacet  `microfacet`, `ggx`, `beckmann`, `cook_torrance`, `blinn_trowbridge_reitz`.
 schlick     `schlick`, `phong_blend` (schlick1993).
 rough       `oren_nayar`, `minnaert`, `he_torrance`, `ward` (half-vector form).
 lobes       `lafortune`, `stretched_lafortune`, `metal`, `plastic` (neumann1999).

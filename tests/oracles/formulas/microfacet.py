@@ -34,6 +34,38 @@ def microfacet(pair: Pair, p: dict[str, Any]) -> Array:
     return value + p["a_d"] / PI * weight
 
 
+def elliptic(d_kind: str, pair: Pair, p: dict[str, Any]) -> Array:
+    """`ggx` and `beckmann`: F D G2 / (4 v v') with a width of its own along x and y, D and Lambda as in Heitz 2014.
+
+    D = P22(slopes) / t^4 with the slopes over their widths; Lambda is the isotropic one of the width that the direction meets.
+    """
+    a_x, a_y = p["alpha_x"], p["alpha_y"]
+    squared = pair.tan2 * ((np.cos(pair.azimuth) / a_x) ** 2 + (np.sin(pair.azimuth) / a_y) ** 2)
+    p22 = np.exp(-squared) if d_kind == "beckmann" else (1.0 + squared) ** -2
+    d = p22 / (PI * a_x * a_y) * (1.0 + pair.tan2) ** 2
+    hidden = []
+    for c, (x, y) in zip((pair.light, pair.view), pair.horizontal(), strict=True):
+        slope = np.hypot(a_x * x, a_y * y) / c  # alpha_o tan(theta)
+        if d_kind == "ggx":
+            hidden.append(0.5 * slope**2 / (np.sqrt(1.0 + slope**2) + 1.0))
+        else:
+            a = 1.0 / np.maximum(slope, 1e-3)
+            hidden.append(np.where(slope > 1e-3, 0.5 * (np.exp(-a * a) / (a * math.sqrt(PI)) - erfc(a)), 0.0))
+    light, view = hidden
+    g = 1.0 / ((1.0 + light) * (1.0 + view)) if p["G"] == "smith" else 1.0 / (1.0 + light + view)
+    return reflectance(p["F"], pair.u, p) * d * g / (4.0 * pair.light * pair.view)
+
+
+def ggx(pair: Pair, p: dict[str, Any]) -> Array:
+    """Walter et al. 2007, Heitz 2014."""
+    return elliptic("ggx", pair, p)
+
+
+def beckmann(pair: Pair, p: dict[str, Any]) -> Array:
+    """The same with Beckmann's D."""
+    return elliptic("beckmann", pair, p)
+
+
 def cook_torrance(pair: Pair, p: dict[str, Any]) -> Array:
     """Beckmann D; as_printed: no, losasso (rho with its 4 in D and its Fresnel), schlick1993 (eq. 5-7, d = 0, s = 1)."""
     m = p["m"]

@@ -32,6 +32,8 @@ class Pair:
     """cosine of the azimuth between wi and wo (1: the same side)"""
     one_minus_view: Array | float | None = None
     """1 - v without cancellation"""
+    view_azimuth: Array | float | None = None
+    """azimuth of wo from the x axis"""
 
     @property
     def cos_phi(self) -> Array:
@@ -46,6 +48,12 @@ class Pair:
     def h_x(self) -> Array:
         """x component of the half vector."""
         return self.t * np.sqrt(self.tan2) * np.cos(self.azimuth)
+
+    def horizontal(self) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """x and y of wi = 2 u h - wo, and of wo."""
+        sine = np.sqrt((1.0 - np.asarray(self.view)) * (1.0 + np.asarray(self.view)))
+        x, y = sine * np.cos(self.view_azimuth), sine * np.sin(self.view_azimuth)
+        return (2.0 * self.u * self.h_x - x, 2.0 * self.u * self.h_y - y), (x, y)
 
     @property
     def h_y(self) -> Array:
@@ -70,4 +78,5 @@ def pair_of_vectors(wi: Array, wo: Array) -> Pair:
         mirror=wi[..., 2] * wo[..., 2] - in_plane,
         opening=np.where(across > 0.0, in_plane / np.where(across > 0.0, across, 1.0), 1.0),
         one_minus_view=1.0 - wo[..., 2],
+        view_azimuth=np.arctan2(wo[..., 1], wo[..., 0]),
     )
