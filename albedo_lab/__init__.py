@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from albedo_lab.analysis.tabulate import tabulate
     from albedo_lab.catalogue import find, names
     from albedo_lab.errors import BadInput, Inconclusive
+    from albedo_lab.lookup.audit import audit
+    from albedo_lab.lookup.export import export
     from albedo_lab.model import Choice, Count, File, Model, Parameter, Reference
 
 _HOME = {
@@ -27,6 +29,8 @@ _HOME = {
     "mean_albedo": "albedo_lab.analysis.mean_albedo",
     "normalise": "albedo_lab.analysis.normalise",
     "tabulate": "albedo_lab.analysis.tabulate",
+    "audit": "albedo_lab.lookup.audit",
+    "export": "albedo_lab.lookup.export",
     "find": "albedo_lab.catalogue",
     "names": "albedo_lab.catalogue",
     "BadInput": "albedo_lab.errors",
@@ -48,8 +52,10 @@ __all__ = [
     "Parameter",
     "Reference",
     "albedo",
+    "audit",
     "check",
     "colour",
+    "export",
     "find",
     "grazing",
     "mean_albedo",
