@@ -9,7 +9,7 @@ from typing import NamedTuple
 from albedo_lab.model import Choice, Model, Parameter
 from albedo_lab.optics.coordinates import PLAIN
 from albedo_lab.optics.frame import Direction
-from albedo_lab.optics.maths import sincos2pi
+from albedo_lab.optics.lobes import raised_cosine_pdf, sample_raised_cosine
 from albedo_lab.sources import losasso, neumann1999, oren_nayar1994
 
 
@@ -63,16 +63,11 @@ def full(p: OrenNayar, wi: Direction, wo: Direction) -> float:
 def sample(p: OrenNayar, wo: Direction, u1: float, u2: float) -> Direction:
     # f cos goes like A z + (B / pi), at grazing incidence and averaged over the azimuth: by the cosine alone, few samples would
     # carry much where both directions graze
-    A, b = steady(p.sigma), rise(p.sigma) / pi
-    # the root of A z^2 + 2 b z = (A + 2 b) u1
-    z = (A + 2.0 * b) * u1 / (b + sqrt(b * b + A * (A + 2.0 * b) * u1))
-    s, (sp, cp) = sqrt(max((1.0 - z) * (1.0 + z), 0.0)), sincos2pi(u2)
-    return Direction(s * cp, s * sp, z)
+    return sample_raised_cosine(steady(p.sigma), rise(p.sigma) / pi, u1, u2)
 
 
 def pdf(p: OrenNayar, wi: Direction, wo: Direction) -> float:
-    A, b = steady(p.sigma), rise(p.sigma) / pi
-    return (A * wi.z + b) / (pi * (A + 2.0 * b))
+    return raised_cosine_pdf(steady(p.sigma), rise(p.sigma) / pi, wi)
 
 
 LOSASSO = losasso(

@@ -1,4 +1,4 @@
-"""Sampling the cosine, a lobe about an axis and a cosine power of half-vectors; the last two with their exact densities."""
+"""Sampling the cosine and its kin, a lobe about an axis and a cosine power of half-vectors, with their exact densities."""
 
 from __future__ import annotations
 
@@ -13,6 +13,40 @@ def sample_cosine(u1: float, u2: float) -> Direction:
     """A direction with density cos / pi about the normal."""
     s, (sp, cp) = sqrt(1.0 - u1), sincos2pi(u2)
     return Direction(s * cp, s * sp, sqrt(u1))
+
+
+def sample_raised_cosine(A: float, b: float, u1: float, u2: float) -> Direction:
+    """A direction with density (A z + b) / (pi (A + 2 b)): for what stays bright towards the horizon."""
+    # the root of A z^2 + 2 b z = (A + 2 b) u1
+    z = (A + 2.0 * b) * u1 / (b + sqrt(b * b + A * (A + 2.0 * b) * u1))
+    return at_height(z, u2)
+
+
+def raised_cosine_pdf(A: float, b: float, w: Direction) -> float:
+    """Density of sample_raised_cosine."""
+    return (A * w.z + b) / (pi * (A + 2.0 * b))
+
+
+def sample_limb(mu: float, u1: float, u2: float) -> Direction:
+    """A direction with density (1 + mu) z (z + 2 mu) / (2 pi (z + mu)^2), mu the cosine of the other direction.
+
+    It follows z / (z + mu), which volumes scatter, within a factor of 2 for any mu, and its integral can be inverted: it is that
+    of the derivative of z^2 / (z + mu).
+    """
+    u = u1 / (1.0 + mu)
+    return at_height(0.5 * (u + sqrt(u * (u + 4.0 * mu))), u2)
+
+
+def limb_pdf(mu: float, w: Direction) -> float:
+    """Density of sample_limb."""
+    both = w.z + mu
+    return (1.0 + mu) * w.z * (w.z + 2.0 * mu) / (2.0 * pi * both * both)
+
+
+def at_height(z: float, u2: float) -> Direction:
+    """The direction of cosine z at an azimuth of u2 turns."""
+    s, (sp, cp) = sqrt(max((1.0 - z) * (1.0 + z), 0.0)), sincos2pi(u2)
+    return Direction(s * cp, s * sp, z)
 
 
 def sample_lobe(axis: Direction, n: float, u1: float, u2: float) -> Direction:

@@ -41,7 +41,7 @@ SEED = 1999
 RAREST = SMALLEST
 """The smallest uniform that a kernel may hand to a sampler."""
 MILLION = 1_000_000
-FAST_MEMBERS = 3
+FAST_MEMBERS = 2
 """Of a family; each is a kernel that takes seconds to compile, and the slow tests take all of them."""
 QUICK = 1 << 20
 AFFORDABLE_MEMBER = 1 << 24

@@ -226,7 +226,7 @@ SPECIMENS: dict[str, tuple[dict[str, Any], ...]] = {
     **dict.fromkeys(("phong", "phong_original", "stretched_phong", "plus_phong", "product_phong", "sqrt_phong"), EXPONENTS),
     **dict.fromkeys(("p_phong", "retro_phong", "blinn", "stretched_blinn", "plus_blinn"), EXPONENTS),
     "lambert": ({"albedo": 1.0},),
-    "modified_ward": WIDTHS,
+    **dict.fromkeys(("modified_ward", "ward_duer", "ward_bounded"), WIDTHS),
     "ward": (*WIDTHS, {"form": "half_vector", "m": 1e-4}, {"form": "half_vector", "as_printed": "yes", "m_x": 0.2, "m_y": 1.0}),
     "schlick_isotropic": ({"r": 1e-6}, {"r": 0.1}, {"r": 1.0}),
     "schlick": (
@@ -265,7 +265,20 @@ SPECIMENS: dict[str, tuple[dict[str, Any], ...]] = {
         {"D": "trowbridge_reitz", "alpha": 0.1, "G": "schlick", "as_printed": "yes"},
         {"D": "gtr", "alpha": 0.3, "gamma": 1.5, "G": "smith", "diffuse": "lambert", "a_d": 0.5},
     ),
+    "oren_nayar_fujii": ({"sigma": 1.0}, {"sigma": 0.0}, {"form": "matched", "sigma": 1.5}),
+    "eon": ({"r": 1.0}, {"r": 0.0}, {"r": 0.3, "rho": 0.5}, {"albedo": "fitted", "r": 1.0}),
+    "disney_diffuse": ({"roughness": 1.0}, {"roughness": 0.0}, {"form": "frostbite", "roughness": 1.0}),
+    "lommel_seeliger": ({},),
+    "hapke": (
+        {},
+        {"w": 1.0, "b": 0.0, "B0": 0.0},
+        {"w": 0.2, "b": 0.9, "c": 1.0, "h": 1e-3},
+        {"H": "hapke1981", "w": 1.0, "b": 0.8, "c": -1.0},
+    ),
+    "hanrahan_krueger": ({}, {"eta": 1.0, "g": 0.9}, {"eta": 1.0, "g": -0.9, "tau": 0.5}),
     "mirror": ({"F": 1.0}, {"F": 0.0}),
+    "ashikhmin_shirley": ({"n": 0.0}, {"n": 1e8, "R_d": 0.0}, {"n_u": 5.0, "n_v": 200.0, "R_s": 0.5}, {"n": 20.0, "R_s": 1.0}),
+    "kelemen": ({"m": 1e-4}, {"m": 0.3}, {"m": 1.0, "F0": 1.0, "r_m": 1.0}, {"m": 0.5, "F0": 0.0, "r_m": 0.0}),
     "ggx": (
         {"alpha": 1e-5},
         {"alpha": 1.0, "G": "smith", "F": "dielectric"},
@@ -277,6 +290,23 @@ SPECIMENS: dict[str, tuple[dict[str, Any], ...]] = {
         {"alpha": 1.0, "G": "smith", "F": "dielectric"},
         {"alpha_x": 0.3, "alpha_y": 0.6},
         {"alpha": 0.1, "F": "conductor"},
+    ),
+    "charlie": ({}, {"r": 0.02}, {"visibility": "smith", "r": 1.0}, {"visibility": "neubelt", "r": 0.5}),
+    "ggx_multiscatter": (
+        {},
+        {"alpha": 1e-4},
+        {"alpha": 1.0, "G": "smith", "F": "schlick", "F0": 0.5},
+        {"alpha": 0.5, "form": "turquin"},
+    ),
+    "disney": (
+        {"baseColor": 1.0, "roughness": 1.0, "specular": 1.0, "sheen": 1.0, "clearcoat": 1.0},
+        {"roughness": 0.4, "anisotropic": 0.8, "metallic": 0.5, "subsurface": 0.5, "clearcoat": 0.5, "clearcoatGloss": 0.0},
+        {"lobe": "specular", "roughness": 0.0},
+        {"lobe": "metallic", "roughness": 0.7, "anisotropic": 0.5},
+        {"lobe": "clearcoat", "clearcoat": 1.0},
+        {"lobe": "diffuse", "roughness": 1.0},
+        {"lobe": "subsurface"},
+        {"lobe": "sheen", "sheen": 1.0},
     ),
 }
 """Of every model the ends of its domain and what lies between, and of a family members that differ; `merl` needs a file."""
@@ -291,9 +321,18 @@ def moderate(model: Model) -> list[tuple[Member, float]]:
     """Specimens and cosines at which a histogram over the hemisphere resolves the lobe."""
     cases: dict[str, list[tuple[dict[str, Any], float]]] = {
         **{name: [({"n": 1.0}, 0.8), ({"n": 20.0}, 0.2)] for name, values in SPECIMENS.items() if values == EXPONENTS},
-        "modified_ward": WIDE_WARD,
+        **dict.fromkeys(("modified_ward", "ward_duer", "ward_bounded"), WIDE_WARD),
         "ward": [({"form": "half_vector", "m_x": 0.3, "m_y": 1.0}, 0.4), *WIDE_WARD],
         "schlick_isotropic": [({"r": 1.0}, 0.2), ({"r": 0.1}, 0.7)],
+        "ashikhmin_shirley": [({"n_u": 5.0, "n_v": 30.0, "R_s": 0.5}, 0.6)],
+        "oren_nayar_fujii": [({"sigma": 1.0}, 0.2), ({"form": "matched", "sigma": 1.5}, 0.7)],
+        "eon": [({"r": 1.0}, 0.2)],
+        "hapke": [({}, 0.7), ({"b": 0.9, "c": 1.0}, 0.2)],
+        "hanrahan_krueger": [({"g": 0.9}, 0.7), ({"g": -0.9}, 0.2)],
+        "charlie": [({"r": 0.3}, 0.2)],
+        "ggx_multiscatter": [({"alpha": 0.5}, 0.2)],
+        "disney": [({"roughness": 0.8, "anisotropic": 0.3}, 0.7), ({"lobe": "subsurface"}, 0.2)],
+        "kelemen": [({"m": 0.5, "F0": 0.5}, 0.3)],
     }
     if model.name in cases:
         return [(member(model, values), mu) for values, mu in cases[model.name]]

@@ -242,6 +242,91 @@ def beckmann_cells() -> list[Cell]:
     return out + cells("beckmann", {**one, "alpha_x": 0.1, "alpha_y": 0.4}, (COS30, COS85), anisotropic=True)
 
 
+def descendant_cells() -> list[Cell]:
+    """Ward-Dür, bounded Ward, Ashikhmin-Shirley and Kelemen: both ends of their domains, round and elliptic."""
+    out = []
+    for model in ("ward_duer", "ward_bounded"):
+        for m in (1e-4, 0.1, 1.0):
+            out += cells(model, {"m_x": m, "m_y": m}, GRAZING)
+        out += cells(model, {"m_x": 0.1, "m_y": 0.4}, anisotropic=True)
+    for n, optics in ((0.0, {"R_s": 0.0, "R_d": 1.0}), (20.0, {"R_s": 0.05, "R_d": 0.5}), (1e4, {"R_s": 1.0, "R_d": 1.0})):
+        out += cells("ashikhmin_shirley", {"n_u": n, "n_v": n, **optics}, GRAZING)
+    out += cells("ashikhmin_shirley", {"n_u": 5.0, "n_v": 400.0, "R_s": 0.3, "R_d": 0.5}, anisotropic=True)
+    for m, f0, r_m in ((1e-4, 1.0, 0.5), (0.2, 0.04, 0.5), (0.05, 0.5, 0.9), (1.0, 1.0, 0.3), (0.6, 0.0, 0.0)):
+        out += cells("kelemen", {"m": m, "F0": f0, "r_m": r_m}, GRAZING)
+    return out
+
+
+def diffuse_cells() -> list[Cell]:
+    """Fujii, EON, Disney's and Frostbite's diffuse terms."""
+    out = []
+    for form, rho, sigma in (("mixing", 0.8, 0.4), ("mixing", 1.0, 1.0), ("matched", 0.7, 0.3), ("matched", 1.0, 1.2)):
+        out += cells("oren_nayar_fujii", {"form": form, "rho": rho, "sigma": sigma}, GRAZING if rho == 1.0 else MUS)
+    for kind in ("exact", "fitted"):
+        for rho, r in ((1.0, 1.0), (0.5, 0.3), (0.9, 1e-3)):
+            out += cells("eon", {"albedo": kind, "rho": rho, "r": r}, GRAZING if r == 1.0 else MUS)
+    out += cells("eon", {"albedo": "exact", "rho": 0.7, "r": 0.0}, (1.0, COS60))
+    for form, roughness in itertools.product(("burley", "frostbite"), (0.0, 0.4, 1.0)):
+        out += cells("disney_diffuse", {"form": form, "rho": 0.9, "roughness": roughness})
+    return out
+
+
+def volume_cells() -> list[Cell]:
+    """Lommel-Seeliger, Hapke, Hanrahan-Krueger: wide and narrow phase functions and surges, layers thin and deep."""
+    out = cells("lommel_seeliger", {"w": 0.8}, GRAZING)
+    plain, moon = {"b": 0.0, "c": 0.0, "B0": 0.0, "h": 1.0}, {"w": 0.35, "b": 0.3, "c": 0.4, "B0": 1.0, "h": 0.05}
+    for H in ("hapke1981", "hapke2002"):
+        out += cells("hapke", {"H": H, "w": 0.9, **plain}, GRAZING)
+        out += cells("hapke", {"H": H, "w": 1.0, **plain})
+        out += cells("hapke", {"H": H, **moon}, GRAZING)
+    out += cells("hapke", {"H": "hapke2002", "w": 0.99, "b": 0.8, "c": -0.7, "B0": 0.6, "h": 0.5})
+    out += cells("hapke", {"H": "hapke2002", "w": 0.2, "b": 0.7, "c": 1.0, "B0": 1.0, "h": 0.005})
+    for g, tau, eta in ((0.0, 1000.0, 1.0), (-0.3, 1000.0, 1.5), (0.8, 0.5, 1.0), (-0.7, 1.0, 1.33), (0.5, 1e-3, 1.5)):
+        out += cells("hanrahan_krueger", {"w": 0.9, "g": g, "tau": tau, "eta": eta}, GRAZING if g == -0.3 else MUS)
+    return out
+
+
+def charlie_cells() -> list[Cell]:
+    """Each visibility; the softened one in both orders."""
+    out = []
+    for visibility in ("softened", "smith", "neubelt"):
+        for r in (0.05, 0.3, 1.0):
+            mus = GRAZING if r == 0.3 else (COS30, COS85)
+            out += cells("charlie", {"visibility": visibility, "r": r}, mus, both=visibility == "softened")
+    return out
+
+
+def ggx_multiscatter_cells() -> list[Cell]:
+    """Both forms, both maskings, white and coloured; of Turquin's both orders."""
+    out = []
+    for form, g in itertools.product(("kulla_conty", "turquin"), ("smith_correlated", "smith")):
+        choice, both = {"form": form, "G": g}, form == "turquin"
+        out += cells("ggx_multiscatter", {**choice, "F": "one", "alpha": 0.6}, GRAZING if g == "smith" else MUS, both=both)
+        out += cells("ggx_multiscatter", {**choice, "F": "schlick", "alpha": 1.0, "F0": 0.5}, (1.0, COS60, COS85), both=both)
+        out += cells("ggx_multiscatter", {**choice, "F": "schlick", "alpha": 0.1, "F0": 0.9}, (COS30, COS85, 1e-4), both=both)
+    return out
+
+
+def disney_cells() -> list[Cell]:
+    """Each lobe alone, and all together."""
+    out = []
+    for lobe in ("diffuse", "subsurface"):
+        for roughness in (0.0, 1.0):
+            out += cells("disney", {"lobe": lobe, "baseColor": 1.0, "roughness": roughness}, (1.0, COS60, 1e-4))
+    out += cells("disney", {"lobe": "sheen", "sheen": 1.0}, GRAZING)
+    for gloss in (0.0, 1.0):
+        out += cells("disney", {"lobe": "clearcoat", "clearcoat": 1.0, "clearcoatGloss": gloss}, (1.0, COS60, COS85, 1e-4))
+    for lobe, amount in (("specular", {"specular": 0.5}), ("metallic", {"baseColor": 0.9})):
+        one = {"lobe": lobe, **amount}
+        out += cells("disney", {**one, "roughness": 0.3, "anisotropic": 0.0}, (1.0, COS60, COS85, 1e-4))
+        out += cells("disney", {**one, "roughness": 0.6, "anisotropic": 1.0}, (COS30, COS85), anisotropic=True)
+    full = {"baseColor": 0.8, "metallic": 0.2, "subsurface": 0.3, "specular": 0.5, "sheen": 0.5, "clearcoat": 1.0}
+    for roughness, anisotropic, gloss in ((0.4, 0.5, 0.7), (1.0, 0.0, 0.0)):
+        last = {"roughness": roughness, "anisotropic": anisotropic, "clearcoatGloss": gloss}
+        out += cells("disney", {"lobe": "all", **full, **last}, (1.0, COS60, COS85, 1e-4), anisotropic=anisotropic > 0.0)
+    return out
+
+
 def all_cells() -> list[Cell]:
     """The whole catalogue."""
     makers = (
@@ -254,6 +339,12 @@ def all_cells() -> list[Cell]:
         microfacet_cells,
         ggx_cells,
         beckmann_cells,
+        descendant_cells,
+        diffuse_cells,
+        volume_cells,
+        charlie_cells,
+        ggx_multiscatter_cells,
+        disney_cells,
     )
     return [cell for maker in makers for cell in maker()]
 

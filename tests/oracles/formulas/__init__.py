@@ -8,6 +8,12 @@ fresnel     one, Schlick, exact for a complex index.
 facets      D and G of microfacet models; exact Smith masking, by closed form or by quadrature of its definition.
 microfacet  `microfacet`, `ggx`, `beckmann`, `cook_torrance`, `blinn_trowbridge_reitz`.
 schlick     `schlick`, `phong_blend` (schlick1993).
+descendants `ward_duer`, `ward_bounded`, `ashikhmin_shirley`, `kelemen`.
+diffuse     `oren_nayar_fujii`, `eon`, `disney_diffuse`.
+volume      `lommel_seeliger`, `hapke`, `hanrahan_krueger`.
 rough       `oren_nayar`, `minnaert`, `he_torrance`, `ward` (half-vector form).
+compensated `ggx_multiscatter`.
+disney      `disney`, lobe by lobe.
+sheen       `charlie`.
 lobes       `lafortune`, `stretched_lafortune`, `metal`, `plastic` (neumann1999).
 """
