@@ -204,6 +204,8 @@ class Model:
     mirror_limit
         (parameter, reflectance(p, mu)): as that parameter tends to 0 with mu fixed, the shape's lobe tends to an ideal mirror of
         this reflectance.
+    width
+        The parameter that says how wide the lobe is, where it is another than the first logarithmic one (see `analysis.spread`).
     positive
         Whether f is promised to be finite and not negative; measured data promise nothing.
     choices, make, chosen
@@ -230,6 +232,7 @@ class Model:
     reciprocal: bool = True
     positive: bool = True
     mirror_limit: tuple[str, Callable[[Any, float], float]] | None = None
+    width: str = ""
     claims: tuple[Claim, ...] = ()
     also: tuple[Reference, ...] = ()
     choices: tuple[Choice | Count | File, ...] = ()

@@ -11,10 +11,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from albedo_lab.analysis.clock import Times
+from albedo_lab.analysis.clock import Times, interleave, timed
 from albedo_lab.analysis.operations import operations
 from albedo_lab.analysis.request import grid, model_of
 from albedo_lab.estimate.record import Question
+from albedo_lab.estimate.sampling import incident
+from albedo_lab.kernels.sampling import BLOCK, sampling_kernel
 from albedo_lab.kernels.search import value_kernel
 from albedo_lab.model import Model
 from albedo_lab.optics.frame import Direction, bisector, length
@@ -49,6 +51,20 @@ class Contender:
         return member, p
 
 
+class Pace(NamedTuple):
+    """Nanoseconds of one evaluation of f and of one weighted sample: medians over the rounds, and the quartiles.
+
+    NaN for the sample of a model that has no sampler.
+    """
+
+    evaluation: float
+    evaluation_low: float
+    evaluation_high: float
+    sample: float
+    sample_low: float
+    sample_high: float
+
+
 class Index(NamedTuple):
     """Refractive index of a metal."""
 
@@ -74,6 +90,30 @@ def pairs() -> tuple[Array, Array]:
 def evaluation(contender: Contender) -> Callable[[], None]:
     """f of every pair at one wavelength."""
     return _filling(*contender.member)
+
+
+def sampling(contender: Contender) -> Callable[[], None]:
+    """PAIRS weighted samples for a viewer at 45 degrees: scrambled uniforms, a direction, f cos over its density, their mean."""
+    member, p = contender.member
+    kernel, values, moments = sampling_kernel(member, False, True), Question(member, p, None).values, np.zeros(3)
+    keys = tuple(np.random.SeedSequence(0).generate_state(4))
+    viewer = incident(np.sqrt(0.5), 0.0)
+    return lambda: kernel(0, PAIRS // BLOCK, np.uint32(0), keys, values, viewer, moments)
+
+
+def paces(names: Sequence[str], rounds: int = ROUNDS) -> dict[str, Pace]:
+    """What models of the catalogue cost at their default parameters; all of them take turns."""
+    models = {name: Contender(name, {}) for name in names}
+    sampled = {name: contender for name, contender in models.items() if contender.member[0].sample is not None}
+    evaluated = interleave({name: timed(evaluation(contender)) for name, contender in models.items()}, rounds)
+    drawn = interleave({name: timed(sampling(contender)) for name, contender in sampled.items()}, rounds)
+    return {name: Pace(*_quartiles(evaluated[name]), *_quartiles(drawn.get(name, [np.nan]))) for name in models}
+
+
+def _quartiles(times: Sequence[float]) -> tuple[float, float, float]:
+    """Median and both quartiles, in nanoseconds of one of PAIRS."""
+    middle, low, high = np.quantile(times, (0.5, 0.25, 0.75)) / PAIRS * 1e9
+    return float(middle), float(low), float(high)
 
 
 def spectrum(contender: Contender) -> Callable[[], None]:

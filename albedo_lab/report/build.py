@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from albedo_lab.analysis.card import Facts
 from albedo_lab.analysis.request import effort
+from albedo_lab.analysis.timing import Pace
 from albedo_lab.analysis.verdict import Verdict
 from albedo_lab.errors import BadInput
 from albedo_lab.files import write_whole
@@ -37,6 +39,7 @@ from albedo_lab.report.findings import WORDS
 from albedo_lab.report.formats import as_csv, format_table
 from albedo_lab.report.front import front_page
 from albedo_lab.report.html.page import page
+from albedo_lab.report.league import League, league, league_files, league_html
 from albedo_lab.report.manifest import NAME as MANIFEST
 from albedo_lab.report.manifest import left_over, manifest
 from albedo_lab.report.statements import (
@@ -51,7 +54,8 @@ from albedo_lab.report.statements import (
     page_of,
     topics,
 )
-from albedo_lab.report.timings import FOLDER, timings_are_there, write_timings
+from albedo_lab.report.timings import FOLDER, paces_there, timings_are_there, write_timings
+from albedo_lab.report.wards import Wards, wards, wards_files, wards_html
 from albedo_lab.report.workers import Step, Task, worked
 
 Files = dict[str, bytes]
@@ -77,6 +81,14 @@ ALL_TABLES = r"""% Every table of the audit; pdflatex tables.tex, twice.
 """
 
 
+@dataclass(frozen=True)
+class SideBySide:
+    """What compares models: all of them, and one family."""
+
+    ranked: League
+    family: Wards
+
+
 def write_reports(
     directory: Path,
     papers: Sequence[str] = (),
@@ -89,8 +101,8 @@ def write_reports(
     """Recomputes the documents of those names, all of them by default, and writes their reports under `directory`.
 
     A run over all documents makes the model cards as well, measures the times where `timings` says so or none are there, and
-    removes what an earlier run wrote and it does not. No file is written before everything else is computed. The bytes are the
-    same whatever the number of processes, which share the threads between them.
+    removes what an earlier run wrote and it does not. No file is written before everything is computed, the times first, as the
+    league shows them; with the same times, the bytes are the same whatever the number of processes, which share the threads.
     Raises BadInput for an unknown name or a folder that cannot be made.
     """
     chosen = [find_paper(name) for name in dict.fromkeys(papers or paper_names())]
@@ -106,13 +118,16 @@ def write_reports(
         if progress is not None:
             progress(next(count), length + TIMING_STEPS * timing)
 
-    audits, drawn, models = work_out(chosen, not papers, seed, threads, processes, step)
-    files = {name: content for audited in audits for name, content in document_files(audited, drawn).items()}
-    files |= {f"models/{name}": content for name, content in model_files(models).items()}
-    files |= common_files(audits, drawn, models, {} if papers else timing_pages(), seed)
-    files[MANIFEST] = manifest(files, seed).encode()
+    audits, drawn, models, side_by_side = work_out(chosen, not papers, seed, threads, processes, step)
     if timing:
         write_timings(directory, in_steps(TIMING_STEPS, step))
+    paces = paces_there(directory)
+    files = {name: content for audited in audits for name, content in document_files(audited, drawn).items()}
+    files |= {f"models/{name}": content for name, content in model_files(models).items()}
+    if side_by_side:
+        files |= encoded(league_files(side_by_side.ranked, paces) | wards_files(side_by_side.family))
+    files |= common_files(audits, drawn, models, {} if papers else timing_pages(), seed, side_by_side, paces)
+    files[MANIFEST] = manifest(files, seed).encode()
     for path in [] if papers else left_over(directory, files):
         path.unlink()
     for name, content in files.items():
@@ -123,16 +138,16 @@ def write_reports(
 
 def work_out(
     papers: Sequence[Paper], whole: bool, seed: int, threads: int | None, processes: int, step: Step
-) -> tuple[list[Audited], dict[str, dict[str, bytes]], list[Card]]:
-    """The documents after their trials, all their pictures, and of a whole run the model cards; the longest work comes first."""
+) -> tuple[list[Audited], dict[str, dict[str, bytes]], list[Card], SideBySide | None]:
+    """The documents after their trials, all their pictures, for a whole run cards and comparisons; longest work first."""
     share = threads if processes == 1 else max(1, effort(None, "rqmc", seed, threads).threads // processes)
     tasks = [Task(carded, (seed, share))] if whole else []
     tasks += [Task(heard, (paper.name, seed, share)) for paper in sorted(papers, key=steps, reverse=True)]
     answers = worked(tasks, processes, step)
-    models: list[Card] = answers.pop(0) if whole else []
+    models, side_by_side = answers.pop(0) if whole else ([], None)
     found = {audited.paper.name: (audited, pictures) for audited, pictures in answers}
     drawn = {name: picture for paper in papers for name, picture in found[paper.name][1].items()}
-    return [found[paper.name][0] for paper in papers], drawn, models
+    return [found[paper.name][0] for paper in papers], drawn, models, side_by_side
 
 
 def heard(name: str, seed: int, threads: int | None, step: Step) -> tuple[Audited, dict[str, dict[str, bytes]]]:
@@ -141,9 +156,10 @@ def heard(name: str, seed: int, threads: int | None, step: Step) -> tuple[Audite
     return audited, draw(audited, step)
 
 
-def carded(seed: int, threads: int | None, step: Step) -> list[Card]:
-    """The model cards, in CARD_STEPS steps."""
-    return cards(seed, threads, in_steps(CARD_STEPS, step))
+def carded(seed: int, threads: int | None, step: Step) -> tuple[list[Card], SideBySide | None]:
+    """The model cards, in CARD_STEPS steps, and what compares models, where there are any."""
+    made = cards(seed, threads, in_steps(CARD_STEPS, step))
+    return made, SideBySide(league(made, seed, threads), wards(threads)) if made else None
 
 
 def in_steps(size: int, step: Step) -> Callable[[int, int], None]:
@@ -209,18 +225,29 @@ def timing_pages() -> dict[str, str]:
     return pages | {f"All {len(CLAIMS)} sentences about time or cost": f"{FOLDER}/claims.md"}
 
 
-def common_files(audits: Sequence[Audited], drawn: Drawn, models: Sequence[Card], timed: Mapping[str, str], seed: int) -> Files:
+def common_files(
+    audits: Sequence[Audited],
+    drawn: Drawn,
+    models: Sequence[Card],
+    timed: Mapping[str, str],
+    seed: int,
+    side_by_side: SideBySide | None,
+    paces: Mapping[str, Pace],
+) -> Files:
     """The pages over all documents and models."""
     tables = [f"{a.paper.name}/{t.name}" for a in audits for t in a.paper.tables]
     long = [f"{a.paper.name}/statements" for a in audits if a.evidence]
     long += ["errata", *(f"models/{name}" for name in CARD_TABLES if models)]
     inputs = "".join(f"\\input{{{name}}}\n" for name in tables) + "".join(f"\\clearpage\\input{{{name}}}\n" for name in long)
+    compared = league_html(side_by_side.ranked, paces) + wards_html(side_by_side.family) if side_by_side else None
     by_topic = {page_of(topic): markdown_topic(topic, audits) for topic in topics(audits)}
     return encoded(
         by_topic
         | {
-            "index.html": page(audits, drawn, models, seed, timed),
-            "README.md": front_page(audits, {card.name: f"models/{card.name}.md" for card in models}, timed),
+            "index.html": page(audits, drawn, models, seed, timed, compared),
+            "README.md": front_page(
+                audits, {card.name: f"models/{card.name}.md" for card in models}, timed, compared is not None
+            ),
             "errata.md": markdown_errata(audits),
             "errata.csv": csv_errata(audits),
             "errata.tex": latex_errata(audits),

@@ -30,16 +30,22 @@ these pages again, the same byte for byte. [index.html](index.html) shows all of
 COLUMNS = ("document", *Kind, "all")
 
 
-def front_page(audits: Sequence[Audited], models: Mapping[str, str], timed: Mapping[str, str]) -> str:
+def front_page(audits: Sequence[Audited], models: Mapping[str, str], timed: Mapping[str, str], league: bool = False) -> str:
     """Counts for each document, then each document: its verdicts, all that does not hold, its pictures.
 
-    `models` are the pages of the model cards by the models' names, `timed` the pages of measured times by what they show.
+    `models` are the pages of the model cards by the models' names, `timed` the pages of measured times by what they show;
+    `league` says whether there is one.
     """
     counts = [[f"[{audited.paper.name}](#{audited.paper.name})", *counted(audited.tally())] for audited in audits]
     counts.append(["**all**", *(f"**{number}**" for number in counted(sum((a.tally() for a in audits), Counter())))])
     errata = sum(len(audited.paper.errata) for audited in audits)
     beside = [f"- **[Errata](errata.md)**: {errata} corrections, each with its numbers ([csv](errata.csv), [tex](errata.tex))"]
     beside += [f"- **[{topic.capitalize()}]({page_of(topic)})**, of all documents side by side" for topic in topics(audits)]
+    if league:
+        beside.append("- **[The league](league.md)**: every model side by side ([csv](league.csv), [svg](league.svg))")
+        beside.append(
+            "- **[Ward's model and its descendants](wards.md)**: their grazing laws ([csv](wards.csv), [svg](wards.svg))"
+        )
     if models:
         beside.append("- **Model cards**: " + ", ".join(f"[{name}]({page})" for name, page in models.items()))
     if timed:

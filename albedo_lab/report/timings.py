@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import os
 import platform
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib.metadata import version
 from pathlib import Path
 
+from albedo_lab.analysis.check import everyone
 from albedo_lab.analysis.clock import Ratio
 from albedo_lab.analysis.operations import OPERATIONS
+from albedo_lab.analysis.timing import Pace, paces
 from albedo_lab.files import write_whole
 from albedo_lab.papers.cost_claims import CLAIMS, CostClaim, Judged
 from albedo_lab.papers.timing import CONTENDERS, TIMINGS, Costs, Row, Timing, measure
@@ -19,6 +23,7 @@ from albedo_lab.report.formats import as_csv, as_markdown
 
 FOLDER = "timings"
 FRONT = f"{FOLDER}/README.md"
+LEAGUE = f"{FOLDER}/league.csv"
 MEASURED = ("model", "printed", "over the first, printed", "ns a pair", "over the first, measured", "ratio of both", *OPERATIONS)
 CLAIMED = ("document", "place", "printed", "asks", "measured", "verdict", "why")
 HEAD = """\
@@ -32,27 +37,41 @@ HOW = """
 Nanoseconds are CPU time of one evaluation of f for a pair of directions in compiled code, one thread, over 4096 pairs; contenders
 take turns, and a figure is the median over the rounds, in brackets the middle half of them. Operations are counted while the
 formula runs in Python, at one pair of directions, constants such as 4π as they are written; a function is exp, log, pow, erfc
-or an arctangent, a comparison also min, max and the absolute value.
+or an arctangent, a comparison also min, max and the absolute value. A sample of the league is a weighted one: its uniforms, a
+direction for a viewer at 45°, f cos over its density.
 `albedo-lab report --timings` measures anew."""
 
 
 def timings_are_there(directory: Path) -> bool:
     """Whether the pages were written before."""
-    return (directory / FRONT).is_file()
+    return (directory / FRONT).is_file() and (directory / LEAGUE).is_file()
+
+
+def paces_there(directory: Path) -> dict[str, Pace]:
+    """The times of the league as they were written there, by model; empty where none were."""
+    try:
+        text = (directory / LEAGUE).read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return {}
+    rows = csv.DictReader(io.StringIO(text))
+    return {row["model"]: Pace(*(float(row[name]) for name in Pace._fields)) for row in rows}
 
 
 def write_timings(directory: Path, progress: Callable[[int, int], None] | None = None) -> None:
-    """Measures everything and writes the pages under `directory`/timings; it takes about 20 seconds.
+    """Measures everything and writes the pages under `directory`/timings; it takes about 30 seconds.
 
     `directory` must exist and be writable. `progress` is told the number of steps done, and of all.
     """
-    steps = 2
+    steps = 3
     if progress is not None:
         progress(0, steps)
     costs = measure()
     if progress is not None:
         progress(1, steps)
-    for name, content in timing_files(costs).items():
+    league = paces(everyone())
+    if progress is not None:
+        progress(2, steps)
+    for name, content in timing_files(costs, league).items():
         path = directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(path, content)
@@ -60,7 +79,7 @@ def write_timings(directory: Path, progress: Callable[[int, int], None] | None =
         progress(steps, steps)
 
 
-def timing_files(costs: Costs) -> dict[str, str]:
+def timing_files(costs: Costs, league: Mapping[str, Pace]) -> dict[str, str]:
     """Every page by its path: Markdown and CSV of each table and of the sentences, and a front page that names the machine."""
     judged = [(claim, claim.trial(costs)) for claim in CLAIMS]
     files = {}
@@ -70,11 +89,13 @@ def timing_files(costs: Costs) -> dict[str, str]:
     files[f"{FOLDER}/claims.md"] = claims_page(judged)
     files[f"{FOLDER}/claims.csv"] = as_csv(("name", *CLAIMED), [[claim.name, *claim_row(claim, j)] for claim, j in judged])
     files[f"{FOLDER}/contenders.csv"] = contenders_csv(costs)
+    files[LEAGUE] = as_csv(("model", *Pace._fields), [[name, *pace] for name, pace in league.items()])
     tally = Counter(j.kind for _, j in judged)
     links = [f"- [{timing.title}: {timing.place}]({timing.name}.md) ([csv]({timing.name}.csv))" for timing in TIMINGS]
     told = ", ".join(f"{tally[kind]} {kind}" for kind in Kind if tally[kind])
     links.append(f"- [Every sentence about time or cost](claims.md) ([csv](claims.csv)): {told}")
     links.append("- [Everything that was measured](contenders.csv)")
+    links.append("- [An evaluation and a sample of every model of the catalogue](league.csv), for [the league](../league.md)")
     files[FRONT] = HEAD + machine() + HOW + "\n\n" + "\n".join(links) + "\n"
     return files
 

@@ -14,11 +14,13 @@ import pytest
 from albedo_lab.analysis import timing
 from albedo_lab.analysis.clock import interleave, ratio, timed
 from albedo_lab.analysis.operations import operations
-from albedo_lab.analysis.timing import LIGHT, VIEWER, Contender, evaluation, operations_of, spectrum
+from albedo_lab.analysis.timing import LIGHT, VIEWER, Contender, Pace, evaluation, operations_of, paces, spectrum
 from albedo_lab.papers.cost_claims import CLAIMS, Judged, basic, counts, dearer, much_less, unclaimed
 from albedo_lab.papers.timing import CONTENDERS, TIMINGS, Costs
 from albedo_lab.papers.verdict import Kind
 from albedo_lab.report import timings
+
+PACE = Pace(1.5, 1.0, 2.0, 3.5, 3.0, 4.0)
 
 
 def fabricated(**nanoseconds: tuple[float, ...]) -> Costs:
@@ -159,7 +161,7 @@ def test_rows_name_contenders() -> None:
 
 
 def test_pages(costs: Costs) -> None:
-    files = timings.timing_files(costs)
+    files = timings.timing_files(costs, {"phong": PACE})
     assert {Path(name).parent.as_posix() for name in files} == {"timings"}
     table = files["timings/neumann1999_table_5.md"]
     assert "| He-Torrance | 1516 | 281 |" in table
@@ -176,8 +178,22 @@ def test_pages(costs: Costs) -> None:
 def test_written_and_found_again(tmp_path: Path, costs: Costs, monkeypatch: pytest.MonkeyPatch) -> None:
     told: list[tuple[int, int]] = []
     monkeypatch.setattr(timings, "measure", lambda: costs)
+    monkeypatch.setattr(timings, "paces", lambda names: {"phong": PACE})
     assert not timings.timings_are_there(tmp_path)
     timings.write_timings(tmp_path, lambda done, of: told.append((done, of)))
     assert timings.timings_are_there(tmp_path)
-    assert told[0] == (0, 2)
-    assert told[-1] == (2, 2)
+    assert told[0] == (0, 3)
+    assert told[-1] == (3, 3)
+    assert timings.paces_there(tmp_path) == {"phong": PACE}
+    (tmp_path / timings.LEAGUE).unlink()
+    assert not timings.timings_are_there(tmp_path)
+    assert timings.paces_there(tmp_path) == {}
+
+
+def test_what_models_of_the_catalogue_cost() -> None:
+    found = paces(["mirror", "lambert", "phong"], 3)
+    assert list(found) == ["mirror", "lambert", "phong"]
+    for pace in (found["lambert"], found["phong"]):
+        assert 0.0 < pace.evaluation_low <= pace.evaluation <= pace.evaluation_high
+        assert 0.0 < pace.sample_low <= pace.sample <= pace.sample_high
+    assert np.isnan(found["mirror"].sample)

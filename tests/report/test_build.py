@@ -9,6 +9,8 @@ import pytest
 from albedo_lab.errors import BadInput
 from albedo_lab.report import build
 from albedo_lab.report.audited import audit
+from albedo_lab.report.league import League
+from albedo_lab.report.timings import LEAGUE
 from tests.report.small import PAPER
 
 LINK = re.compile(r'\]\(([^)#]+)\)|(?:href|src)="([^"#:]+)"')
@@ -42,7 +44,7 @@ def draw_once(audited, step):
 def stand_in(folder, progress):
     """Measures nothing, and writes pages of the right names."""
     (folder / "timings").mkdir(exist_ok=True)
-    for page in ("timings/README.md", *build.timing_pages().values()):
+    for page in ("timings/README.md", LEAGUE, *build.timing_pages().values()):
         (folder / page).write_text("1 ns", encoding="utf-8")
     progress(1, 1)
 
@@ -122,6 +124,27 @@ def test_what_an_earlier_run_left_goes_unless_it_was_changed(tmp_path, monkeypat
     assert (tmp_path / "small" / "table_1.md").exists()
     assert (tmp_path / "small" / "statements.md").read_text(encoding="utf-8") == "mine"
     assert (tmp_path / "notes.txt").exists()
+
+
+def test_the_league_is_written_with_the_times_that_are_there(tmp_path, monkeypatch):
+    seen = []
+    truly = build.league_files
+    monkeypatch.setattr(build, "carded", lambda seed, threads, step: ([], League((), drawn()["small/figure_1"])))
+    monkeypatch.setattr(build, "league_files", lambda ranked, paces: seen.append(paces) or truly(ranked, paces))
+    (tmp_path / "timings").mkdir()
+    head = "model,evaluation,evaluation_low,evaluation_high,sample,sample_low,sample_high"
+    (tmp_path / LEAGUE).write_text(f"{head}\nlambert,1,2,3,4,5,6\n", encoding="utf-8")
+    (tmp_path / "timings" / "README.md").write_text("times", encoding="utf-8")
+    build.write_reports(tmp_path)
+    assert seen == [{"lambert": (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)}]
+    once = contents(tmp_path)
+    assert {"league.md", "league.csv", "league.svg", "league.png"} <= set(json.loads(once["manifest.json"])["sha256"])
+    assert b"(league.md)" in once["README.md"]
+    assert b'id="league"' in once["index.html"]
+    build.write_reports(tmp_path)
+    assert contents(tmp_path) == once
+    build.write_reports(tmp_path / "some", ["small"])
+    assert "league.md" not in contents(tmp_path / "some")
 
 
 def test_progress_counts_to_the_end(tmp_path, monkeypatch):

@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from albedo_lab import find
+from albedo_lab.analysis.check import everyone
+from albedo_lab.analysis.spread import comparable
 from albedo_lab.papers import find_paper, paper_names
 from albedo_lab.papers.examine import examine, hear
 from albedo_lab.papers.record import Paper
@@ -96,6 +99,17 @@ def test_cells_are_found_again(paper, manifest):
             assert {name: cell for name, cell in before[index].items() if cell} == {
                 name: cell for name, cell in row.items() if cell
             }
+
+
+def test_the_league_has_every_model_with_its_times_and_its_parameter_is_found_again():
+    league = {row["model"]: row for row in committed("league.csv")}
+    assert list(league) == everyone()
+    assert [name for name, row in league.items() if not row["ns_evaluation"]] == [], "albedo-lab report --timings measures them"
+    for name in list(league)[::EVERY]:
+        again = comparable(find(name))
+        assert (league[name]["wide_parameter"], league[name]["wide_value"]) == (
+            (again.parameter, str(again.value)) if again else ("", "")
+        )
 
 
 def test_the_readme_counts_as_the_reports_do():

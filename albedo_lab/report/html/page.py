@@ -18,6 +18,9 @@ from albedo_lab.report.cards import Card, badge, card_html, verdict_words, worst
 from albedo_lab.report.front import HOW, STATED, TITLE, figure_files
 from albedo_lab.report.html.prose import formula, prose, words
 from albedo_lab.report.html.svg import embedded
+from albedo_lab.report.league import HOW as LEAGUE_HOW
+from albedo_lab.report.league import LEAD
+from albedo_lab.report.league import TITLE as LEAGUE_TITLE
 from albedo_lab.report.statements import corrected
 
 MOODS = {
@@ -37,11 +40,13 @@ def page(
     cards: Sequence[Card],
     seed: int,
     timed: Mapping[str, str],
+    league: Markup | None = None,
 ) -> str:
     """The whole report as HTML that needs no other file and no network.
 
     `drawn` are the pictures by document and name ("neumann1999/figure_5"), each of the kinds svg and png; `timed` the
-    pages of measured times by title, which are linked and not shown, as they are not the same from run to run.
+    pages of measured times by title, which are linked and not shown, as they are not the same from run to run; `league` is
+    the content of its section.
     """
     home = files(__package__)
     environment = Environment(
@@ -73,6 +78,8 @@ def page(
         outcomes={card.name: (badge(worst(card.facts.findings)), verdict_words(card.facts)) for card in cards},
         cited={card.name: citations(card.name, audits) for card in cards},
         timed=timed,
+        league=league,
+        league_words={"title": LEAGUE_TITLE, "lead": LEAD, "how": LEAGUE_HOW},
         moods=MOODS,
         mood_words=MOOD_WORDS,
         mood=mood,
