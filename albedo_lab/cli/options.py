@@ -181,7 +181,7 @@ CELLS = together(
     SEED,
     THREADS,
 )
-QUANTITY = click.option("--quantity", type=click.Choice(QUANTITIES), help="[default: albedo]")
+QUANTITY = click.option("--quantity", type=click.Choice(QUANTITIES), help="[default: albedo; for audit what fits]")
 FILE_FORMAT = click.option("--format", type=click.Choice(FORMATS), help="Of the file. [default: by its suffix]")
 
 

@@ -175,7 +175,7 @@ def checked(p: Any, wi: Direction, wo: Direction) -> float:
         (with_a_jump, Verdict.FAIL),
         (negative, Verdict.PASS),
         (single, Verdict.PASS),
-        (checked, Verdict.INCONCLUSIVE),
+        pytest.param(checked, Verdict.INCONCLUSIVE, marks=pytest.mark.slow),
     ],
 )
 def test_sick_shapes(f: Callable[..., float], verdict: Verdict) -> None:

@@ -21,7 +21,7 @@ from tests.models import trial
 
 NAMES = [name for name in catalogue.names() if name != "merl"]
 CHECKS = (finiteness, positivity, reciprocity)
-FAST_MEMBERS = 2
+FAST_MEMBERS = 1
 """Of a family; each takes two kernels."""
 
 Check = Callable[[Subject, Trial], list[Finding]]

@@ -104,7 +104,6 @@ QUICK = {
     "an offset",
     "smallest alpha",
     "no limit at mu = 0",
-    "flipped and shifted",
 }
 """All others look among all layouts of all models, of which quick runs have enough with these."""
 

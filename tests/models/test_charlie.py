@@ -89,7 +89,7 @@ def test_the_fit_of_the_masking() -> None:
         assert off(r, 1e-9) * smith(r, 1e-9) > 25
 
 
-@pytest.mark.parametrize("visibility", ["softened", "smith"])
+@pytest.mark.parametrize("visibility", ["softened", pytest.param("smith", marks=pytest.mark.slow)])
 def test_the_albedo_diverges(visibility: str) -> None:
     """1 / (N.V) is left of a Lambda that stays below exp(21)."""
     model, p = member(MODEL, {"visibility": visibility, "r": 0.3})

@@ -99,7 +99,7 @@ def test_formula(G: str, words: dict[str, str], F0: float | None) -> None:
 # Energy, and the price
 
 
-@pytest.mark.parametrize("words", BOTH)
+@pytest.mark.parametrize("words", [BOTH[0], *(pytest.param(words, marks=pytest.mark.slow) for words in BOTH[1:])])
 def test_white_facets_give_everything_back(words: dict[str, str]) -> None:
     """For every viewer, up to what the table leaves."""
     for alpha, mu in product(ALPHAS, (1.0, 0.6, 0.1, 1e-3, 1e-9)):

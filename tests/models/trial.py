@@ -18,6 +18,7 @@ from hypothesis import strategies
 from numpy.typing import NDArray
 from scipy.special import bdtr, chdtrc, stdtrit
 
+from albedo_lab import catalogue
 from albedo_lab.estimate.record import Estimate, Question, Tolerance
 from albedo_lab.estimate.sampling import GRAZING_SAMPLES, RESOLUTION
 from albedo_lab.model import Choice, Count, File, Model, Parameter
@@ -534,10 +535,11 @@ def reference() -> tuple[Cell, ...]:
 
 
 def cells_of(name: str, members: int = 1000) -> list[Cell]:
-    """What the oracle knows of one model, or of so many members of its family."""
+    """What the oracle knows of a model, or of so many members of its family: the default one first, whose kernels others need."""
+    default = catalogue.find(name).chosen
     found = [cell for cell in reference() if cell.name == name]
     assert found, f"the oracle has no cell of {name}"
-    known = list(dict.fromkeys(words_of(cell) for cell in found))
+    known = sorted(dict.fromkeys(words_of(cell) for cell in found), key=lambda words: not set(words) <= set(default.items()))
     several = known[:: -(-len(known) // members)]  # members that stand next to each other differ in one word only
     return [cell for cell in found if words_of(cell) in several]
 

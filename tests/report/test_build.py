@@ -11,6 +11,7 @@ from albedo_lab.report import build
 from albedo_lab.report.audited import audit
 from albedo_lab.report.league import League
 from albedo_lab.report.timings import LEAGUE
+from albedo_lab.report.wards import Wards
 from tests.report.small import PAPER
 
 LINK = re.compile(r'\]\(([^)#]+)\)|(?:href|src)="([^"#:]+)"')
@@ -129,7 +130,9 @@ def test_what_an_earlier_run_left_goes_unless_it_was_changed(tmp_path, monkeypat
 def test_the_league_is_written_with_the_times_that_are_there(tmp_path, monkeypatch):
     seen = []
     truly = build.league_files
-    monkeypatch.setattr(build, "carded", lambda seed, threads, step: ([], League((), drawn()["small/figure_1"])))
+    picture = drawn()["small/figure_1"]
+    compared = build.SideBySide(League((), picture), Wards((), picture))
+    monkeypatch.setattr(build, "carded", lambda seed, threads, step: ([], compared))
     monkeypatch.setattr(build, "league_files", lambda ranked, paces: seen.append(paces) or truly(ranked, paces))
     (tmp_path / "timings").mkdir()
     head = "model,evaluation,evaluation_low,evaluation_high,sample,sample_low,sample_high"
@@ -138,8 +141,11 @@ def test_the_league_is_written_with_the_times_that_are_there(tmp_path, monkeypat
     build.write_reports(tmp_path)
     assert seen == [{"lambert": (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)}]
     once = contents(tmp_path)
-    assert {"league.md", "league.csv", "league.svg", "league.png"} <= set(json.loads(once["manifest.json"])["sha256"])
+    assert {f"{name}.{kind}" for name in ("league", "wards") for kind in ("md", "csv", "svg", "png")} <= set(
+        json.loads(once["manifest.json"])["sha256"]
+    )
     assert b"(league.md)" in once["README.md"]
+    assert b"(wards.md)" in once["README.md"]
     assert b'id="league"' in once["index.html"]
     build.write_reports(tmp_path)
     assert contents(tmp_path) == once

@@ -24,6 +24,8 @@ ABOVE = 1.75
 """Inches of the legend, the titles and the axis."""
 MOST = 1.5
 """A larger albedo is an arrow at the edge, and its number."""
+CLEAR = 0.1
+"""An exponent whose interval is wider is not shown."""
 SMALL = 12
 KINDS = {
     "HALF": "about the half-vector",
@@ -122,8 +124,8 @@ def dots(axes: Axes, y: float, largest: float, mean: float, verdict: str) -> Non
 def ending(row: pd.Series) -> str:
     """How the albedo ends at grazing incidence, as a sign and a number."""
     s = row["exponent"]
-    known = math.isfinite(s) and row["exponent_low"] * row["exponent_high"] > 0.0
-    power = f"  μ$^{{{s:.2g}}}$".replace("-", "−") if known else ", slowly"
+    low, high = row["exponent_low"], row["exponent_high"]
+    power = f"  μ$^{{{s:.2g}}}$".replace("-", "−") if high - low < CLEAR else ", slowly" if low <= 0.0 <= high else ""
     if row["behaviour"] == "bounded":
         return f"→ {row['limit']:.3g}"
     behaviour = str(row["behaviour"])
