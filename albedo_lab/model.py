@@ -197,7 +197,8 @@ class Model:
     paper_constant
         The maximum that the source prints for p, NaN where it prints none.
     complete(numbers) -> p
-        Optional: p from the values of all parameters by name, where it holds more than these (constants derived from them).
+        Optional: p from the values of all parameters by name, where it holds constants derived from them. Without, a shorthand
+        is left out, and a field of which no parameter bears the name keeps its default.
     parts(p) -> ((model, p), ...)
         Optional: the terms whose sum `evaluate` is, where no single set of coordinates makes all of them smooth. Quadrature
         integrates each in its own; of a part only parameters_type, evaluate and smooth_in count.
@@ -280,7 +281,7 @@ class Model:
         numbers = {name: numbers.get(name, parameter.default) for name, parameter in known.items()}
         if self.complete is not None:
             return self.complete(numbers)
-        return self.parameters_type(**{name: numbers[name] for name in self.parameters_type._fields})
+        return self.parameters_type(**{name: numbers[name] for name in self.parameters_type._fields if name in numbers})
 
     @property
     def title(self) -> str:

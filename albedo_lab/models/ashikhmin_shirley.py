@@ -7,7 +7,6 @@ F wi.z / max(wi.z, wo.z). So the specular albedo is at most R_s + (1 - R_s) (1 -
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from math import pi, sqrt
 from typing import Any, NamedTuple
 
@@ -95,11 +94,6 @@ def widths(p: AshikhminShirley) -> tuple[float, float]:
     return sqrt(wide / (p.n_u + 1.0)), sqrt(wide / (p.n_v + 1.0))
 
 
-def complete(numbers: Mapping[str, float]) -> AshikhminShirley:
-    """n stands in n_u and n_v."""
-    return AshikhminShirley(**{name: value for name, value in numbers.items() if name != "n"})
-
-
 SOURCE = ashikhmin2000("the specular part, the diffuse part and their sampling")
 ABOUT_HALF = Coordinates(Axis.HALF, POWER, exponent=smaller, ellipse=widths, kink=Kink.EQUAL_COSINES)
 ABOUT_NORMAL = Coordinates(Axis.NORMAL, TANGENT)
@@ -129,7 +123,6 @@ MODEL = Model(
     sample=sample,
     pdf=pdf,
     scale=lambda p: 1.0,
-    complete=complete,
     smooth_in=ABOUT_HALF,
     parts=parts,
     isotropic=lambda p: p.n_u == p.n_v,

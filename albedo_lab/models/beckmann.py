@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cache
 from typing import NamedTuple
 
@@ -69,7 +68,6 @@ def make(*, G: str, F: str) -> Model:
         pdf=pdf,
         weight=smith_weight(NORMALS, masking, reflectance, sample),
         scale=lambda p: 1.0,
-        complete=complete,
         smooth_in=Coordinates(Axis.HALF, GAUSS, ellipse=widths),
         isotropic=lambda p: p.alpha_x == p.alpha_y,
         mirror_limit=("alpha", reflectance),
@@ -80,11 +78,6 @@ def make(*, G: str, F: str) -> Model:
         make=make,
         chosen={"G": G, "F": F},
     )
-
-
-def complete(numbers: Mapping[str, float]) -> Beckmann:
-    """alpha stands in alpha_x and alpha_y."""
-    return Beckmann(**{name: value for name, value in numbers.items() if name != "alpha"})
 
 
 MODEL = make(G="smith_correlated", F="one")

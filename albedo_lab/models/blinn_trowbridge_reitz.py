@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cache
 from math import pi
 from typing import NamedTuple
@@ -60,11 +60,6 @@ def widths(p: Blinn) -> tuple[float, float]:
     return p.c, p.c
 
 
-def complete(numbers: Mapping[str, float]) -> Blinn:
-    """What the reflectance chosen does not need keeps its default."""
-    return Blinn(**numbers)
-
-
 @cache
 def make(*, fresnel: str, as_printed: str) -> Model:
     """One reflectance of the facets, with a normalised or the printed D."""
@@ -85,7 +80,6 @@ def make(*, fresnel: str, as_printed: str) -> Model:
         pdf=pdf,
         scale=lambda p: 1.0,
         scale_symbol="k_s",
-        complete=complete,
         smooth_in=Coordinates(Axis.HALF, TANGENT, ellipse=widths, kink=Kink.V_CAVITY),
         source=losasso("The Blinn Lighting Model", *notes),
         choices=CHOICES,

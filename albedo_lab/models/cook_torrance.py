@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cache
 from math import erfc, pi, sqrt
 from typing import NamedTuple
@@ -165,7 +165,6 @@ def make(*, geometry: str, fresnel: str, as_printed: str) -> Model:
         pdf=pdf,
         scale=lambda p: 1.0,
         scale_symbol="k_s" if geometry != "smith" else "s",
-        complete=complete,
         smooth_in=gauss(geometry),
         reciprocal=not swapped,
         source=source,
@@ -178,11 +177,6 @@ def make(*, geometry: str, fresnel: str, as_printed: str) -> Model:
         make=make,
         chosen={"geometry": geometry, "fresnel": fresnel, "as_printed": as_printed},
     )
-
-
-def complete(numbers: Mapping[str, float]) -> CookTorrance:
-    """What the reflectance chosen does not need keeps its default."""
-    return CookTorrance(**numbers)
 
 
 MODEL = make(geometry="v_cavity", fresnel="one", as_printed="no")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -106,7 +106,6 @@ def make(*, G: str, F: str, sampling: str) -> Model:
         pdf=pdf,
         weight=smith_weight(NORMALS, masking, reflectance, sample),
         scale=lambda p: 1.0,
-        complete=complete,
         smooth_in=Coordinates(Axis.HALF, TAIL, ellipse=widths),
         isotropic=lambda p: p.alpha_x == p.alpha_y,
         mirror_limit=("alpha", reflectance),
@@ -120,11 +119,6 @@ def make(*, G: str, F: str, sampling: str) -> Model:
         make=make,
         chosen={"G": G, "F": F, "sampling": sampling},
     )
-
-
-def complete(numbers: Mapping[str, float]) -> GGX:
-    """alpha stands in alpha_x and alpha_y."""
-    return GGX(**{name: value for name, value in numbers.items() if name != "alpha"})
 
 
 MODEL = make(G="smith_correlated", F="one", sampling="caps")
